@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meniscus/state/contact_line.h"
+#include "meniscus/state/drop.h"
+#include "meniscus/state/solid.h"
+
+#include <vector>
+
+namespace meniscus {
+
+enum class ContactForce {
+  measured_angle,  ///< Eq 8 as written: a force alpha (theta - theta_c) along n_p
+  virtual_work,    ///< the surface energies' force sigma (cos theta_c - cos theta) per length, taken implicitly
+};
+
+struct ContactAngleOptions {
+  ContactForce force = ContactForce::virtual_work;
+  double boundary_force = 1;     ///< alpha of Eq 8, cm/s of contact line speed per radian and step
+  double tension_over_mass = 0;  ///< virtual_work: c = 2 sigma/(rho R), cm^3/s^2 per cm of energy gradient
+};
+
+struct ContactAngleReport {
+  std::size_t line = 0, advancing = 0, receding = 0;  ///< vertices
+};
+
+/// Moves the contact line towards its stable angle (Section 4.3 of the paper, Eq 8): outward where
+/// theta is above the solid's advancing angle, inward where it is below the receding angle, and
+/// not at all between. Each solid brings its own two angles.
+///
+/// measured_angle is the paper's. virtual_work measures theta by the derivative of the surface area
+/// and moves each line vertex by dt^2 c f / (M + c dt^2 L_ii), so that it is stable at any dt; a
+/// vertex between its two angles sticks to the solid.
+///
+/// Reads positions, `geometry` (lumped areas only: that of the step's start will do), contact state and `time` (for
+/// moving solids); writes positions and velocities of line vertices, never along the solid's normal.
+ContactAngleReport apply_contact_angle(Drop& drop, const std::vector<Solid>& solids, const SurfaceGeometry& geometry,
+                                       double time, double dt, const ContactAngleOptions& options);
+
+}  // namespace meniscus

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meniscus/state/drop.h"
+
+namespace meniscus {
+
+/// What happens to vertices on a solid during curvature flow.
+enum class ContactInFlow {
+  slide,  ///< they flow with the rest and lose the part along the solid's normal (the paper)
+  fixed,  ///< they stay; the contact angle operator alone moves the contact line
+};
+
+struct MeanCurvatureFlowOptions {
+  double coefficient = 0.2;  ///< gamma, cm^2/s (Eq 4), >= 0
+  ContactInFlow contact = ContactInFlow::fixed;
+  /// Whether an edge's negative cotangent weight counts as zero, which keeps large steps from
+  /// turning triangles over.
+  bool clamp_negative_weights = true;
+  SolverOptions solver;
+};
+
+/// Implicit mean curvature flow (Eqs 4 to 7 of the paper): solves
+/// (M + gamma dt L) X_new = M X_old for the displacement, (M + gamma dt L) d = -gamma dt L X_old,
+/// starting from the last step's, then x += d and v += d/dt.
+/// M: lumped areas (mixed Voronoi), L: cotangent stiffness, positive semidefinite.
+///
+/// Reads positions, `geometry` (of the current positions) and contact state; writes positions,
+/// velocities and displacements. gamma dt = 0 does nothing. With dt = 0 the velocity is left alone.
+/// Throws NumericsError if the solve does not converge.
+SolveReport flow_by_mean_curvature(Drop& drop, const SurfaceGeometry& geometry, double dt,
+                                   const MeanCurvatureFlowOptions& options);
+
+}  // namespace meniscus

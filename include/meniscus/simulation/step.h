@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meniscus/state/drop.h"
+#include "meniscus/state/parameters.h"
+#include "meniscus/state/solid.h"
+#include "meniscus/topology/remesh.h"
+
+#include <array>
+#include <vector>
+
+namespace meniscus {
+
+/// The stages of a step, in the order of the paper's Figure 1.
+enum class Stage { external_forces, geometry, damping, curvature_flow, contact_angle, volume_correction, remesh, split };
+inline constexpr std::size_t num_stages = 8;
+const char* stage_name(Stage stage);  ///< "external_forces", ...
+
+/// Everything a step needs to know, the same for every drop.
+struct StepOptions {
+  Level level = Level::calibrated;
+  Eigen::Vector3d gravity{0, 0, -981};  ///< cm/s^2
+  Liquid liquid;
+  PaperCoefficients paper;  ///< read by Level::paper only
+  VolumeCorrectionMethod volume_correction = VolumeCorrectionMethod::global;
+  EdgeBand band;
+  bool remesh = true;
+  bool split = true;
+  SolverOptions solver;
+  /// Seconds on some clock, for StepReport::stage_seconds; the library itself never reads one.
+  double (*clock)() = nullptr;
+};
+
+/// What happened in a step, summed over drops.
+struct StepReport {
+  std::array<double, num_stages> stage_seconds{};  ///< zero without a clock
+  std::size_t triangles = 0;                       ///< at the end of the step
+  std::size_t edge_operations = 0;                 ///< splits, collapses and flips
+  std::size_t cuts = 0;                            ///< necks cut
+  std::size_t deleted = 0;                         ///< pieces too small to go on as drops
+  std::size_t limited_volume = 0;                  ///< volume corrections cut to their limit
+  int solver_iterations = 0;                       ///< most of any drop
+  double worst_volume_error = 0;                   ///< largest |V - V_target| / V_target before topology changed
+
+  StepReport& operator+=(const StepReport& other);
+};
+
+/// One step of one drop, from time - dt to time (s): the paper's Figure 1 from external forces to
+/// mesh split. The drop is replaced by its pieces: usually one, more if it pinched off, none if it
+/// was too small to go on.
+/// `remesher` keeps working arrays from call to call: one a thread.
+/// Throws NumericsError if a solve does not converge or a number is no longer finite.
+std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt, const StepOptions& options,
+                            Remesher& remesher, StepReport& report);
+
+}  // namespace meniscus

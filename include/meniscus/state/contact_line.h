@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meniscus/state/drop.h"
+
+#include <optional>
+
+namespace meniscus {
+
+/// The neighbourhood of a vertex of the contact line (Figure 3 of the paper).
+struct ContactLineVertex {
+  Eigen::Vector3d outward;  ///< unit, in the solid's tangent plane, from the wetted area to the dry
+  double length;            ///< cm of contact line that belongs to the vertex: |grad A_wet|
+  double angle;             ///< theta from the mean normal n_L of the water-air faces, through the liquid
+  double energy_cosine;     ///< cos(theta) by virtual work: grad A_air . outward / length
+  double stiffness;         ///< L_ii of the water-air faces alone: the growth of the force with the move
+};
+
+/// Looks at vertex v, whose contact state must be Contact::line. Nothing if its line length or
+/// its normals vanish (a lone colliding vertex, a fold).
+std::optional<ContactLineVertex> contact_line_vertex(const Drop& drop, std::uint32_t v);
+
+/// The mean of ContactLineVertex::angle over the contact line, weighted by length (radians);
+/// nothing without a contact line.
+std::optional<double> mean_contact_angle(const Drop& drop);
+
+/// The area of the faces that lie on solids: all three vertices collide and the face looks into the solid (cm^2).
+double wetted_area(const Drop& drop);
+
+}  // namespace meniscus

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meniscus/core/mesh_data.h"
+#include "meniscus/core/types.h"
+#include "meniscus/geometry/connectivity.h"
+#include "meniscus/geometry/solve_spd.h"
+#include "meniscus/geometry/surface_geometry.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace meniscus {
+
+/// Where a vertex is in respect to the solids.
+enum class Contact : std::uint8_t {
+  free = 0,    ///< on the water-air surface
+  wetted = 1,  ///< on a solid, like all its neighbours
+  line = 2,    ///< on a solid, with a neighbour that is not: the contact line of the paper's Figure 3
+};
+
+inline bool is_colliding(Contact contact) { return contact != Contact::free; }
+
+/// The arrays that operators need within a step, kept so that an unchanged mesh allocates nothing.
+struct Workspace {
+  SurfaceGeometry geometry;
+  RingMatrix matrix;
+  SpdSolver solver;
+  std::vector<Lanes> rhs, solution;
+  std::vector<Eigen::Vector3d> vectors;
+  std::vector<double> scalars, more_scalars;
+  std::vector<std::uint8_t> fixed;
+};
+
+/// A drop of liquid: a closed, outward-oriented triangle mesh with velocities, contact state and
+/// the volume that it ought to have.
+///
+/// Row i of every array is vertex i of the mesh, removed vertices included (their connectivity
+/// degree is 0). Views are void once the mesh gains elements. Operators change positions,
+/// velocities and contact state; only topology/ changes the mesh's elements, and leaves
+/// connectivity() up to date.
+class Drop {
+ public:
+  /// Takes over a closed, outward-oriented mesh at rest; its volume becomes the target volume.
+  /// A property map "v:<name>" of doubles that the mesh brings along is carried through remeshing.
+  /// Throws GeometryError if the mesh is empty, open, not triangular, not finite or bounds no
+  /// positive volume.
+  explicit Drop(Mesh mesh);
+  Drop(const Drop& other);
+  Drop& operator=(const Drop& other);
+  Drop(Drop&&) = default;
+  Drop& operator=(Drop&&) = default;
+
+  Mesh& mesh() { return mesh_; }
+  const Mesh& mesh() const { return mesh_; }
+  /// Rows of the arrays: vertices of the mesh, removed ones included.
+  std::size_t num_rows() const { return mesh_.num_vertices(); }
+
+  Columns positions() { return meniscus::positions(mesh_); }
+  ConstColumns positions() const { return meniscus::positions(mesh_); }
+  Columns velocities() { return columns(mesh_, velocity_); }  ///< cm/s
+  ConstColumns velocities() const { return columns(std::as_const(mesh_), velocity_); }
+  /// The last step's displacement by curvature flow (cm): where the next solve starts.
+  Columns displacements() { return columns(mesh_, displacement_); }
+  /// The solid's outward unit normal at colliding vertices; anything elsewhere.
+  Columns contact_normals() { return columns(mesh_, contact_normal_); }
+  ConstColumns contact_normals() const { return columns(std::as_const(mesh_), contact_normal_); }
+  Contact* contact() { return num_rows() == 0 ? nullptr : &contact_[VertexIndex(0)]; }
+  const Contact* contact() const { return num_rows() == 0 ? nullptr : &contact_[VertexIndex(0)]; }
+  /// The index of the solid that a colliding vertex touches; -1 elsewhere.
+  std::int32_t* contact_solid() { return num_rows() == 0 ? nullptr : &contact_solid_[VertexIndex(0)]; }
+  const std::int32_t* contact_solid() const { return num_rows() == 0 ? nullptr : &contact_solid_[VertexIndex(0)]; }
+  /// 1 at vertices whose faces are still bad after remeshing: damping smooths their velocity more.
+  std::uint8_t* poor_quality() { return num_rows() == 0 ? nullptr : &poor_quality_[VertexIndex(0)]; }
+
+  Connectivity& connectivity() { return connectivity_; }
+  const Connectivity& connectivity() const { return connectivity_; }
+  Workspace& workspace() { return workspace_; }
+
+  /// Counts up whenever elements of the mesh changed, so that kept factors know that they are void.
+  std::uint64_t topology_version() const { return topology_version_; }
+  /// Says that elements changed. topology/ calls it; whoever else edits mesh() must call
+  /// topology_changed() after connectivity().rebuild(mesh()).
+  void topology_changed() { ++topology_version_; }
+
+  /// Whether elements changed since the last call: kept factors of the flow's matrix are void.
+  bool flow_pattern_changed() {
+    const bool changed = flow_version_ != topology_version_;
+    flow_version_ = topology_version_;
+    return changed;
+  }
+
+  /// Moves the elements together if more than `share` of the vertex rows are removed ones, and
+  /// rebuilds the connectivity. Returns whether it did.
+  bool collect_garbage(double share = 0.25);
+
+  double volume() const { return enclosed_volume(positions(), connectivity_); }  ///< cm^3
+  double target_volume() const { return target_volume_; }                        ///< cm^3
+  void set_target_volume(double volume) { target_volume_ = volume; }
+  int id() const { return id_; }
+  void set_id(int id) { id_ = id; }
+
+ private:
+  void bind();
+
+  Mesh mesh_;
+  Mesh::Property_map<VertexIndex, Vector> velocity_, displacement_, contact_normal_;
+  Mesh::Property_map<VertexIndex, Contact> contact_;
+  Mesh::Property_map<VertexIndex, std::int32_t> contact_solid_;
+  Mesh::Property_map<VertexIndex, std::uint8_t> poor_quality_;
+  Connectivity connectivity_;
+  Workspace workspace_;
+  double target_volume_ = 0;
+  std::uint64_t topology_version_ = 1, flow_version_ = 0;
+  int id_ = 0;
+};
+
+/// The drops of a mesh file: one for each value of the attribute "drop" (else one for each
+/// connected component), with velocities from "vx", "vy", "vz", contact state from "contact" and
+/// target volumes from comments "drop <id> target_volume <cm^3>" where the file has them.
+/// Throws GeometryError as to_mesh and Drop do.
+std::vector<Drop> to_drops(const MeshData& data);
+
+/// All drops as one soup, with the attributes vx, vy, vz (float64), drop (int32) and contact
+/// (uint8) and the comments that to_drops reads back.
+MeshData to_mesh_data(const std::vector<Drop>& drops);
+
+}  // namespace meniscus

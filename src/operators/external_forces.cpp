@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/operators/external_forces.h"
+
+#include "meniscus/core/error.h"
+
+#include <fmt/format.h>
+
+namespace meniscus {
+namespace {
+
+using Eigen::Vector3d;
+
+/// How often a vertex that leaves one solid may end up in another before it is left where it is.
+constexpr int max_collision_passes = 3;
+
+/// v += g dt; x += v dt. Returns the box of the new positions; throws if it is not finite.
+Eigen::AlignedBox3d fall(Drop& drop, const Vector3d& gravity, double dt) {
+  Columns x = drop.positions(), v = drop.velocities();
+  const std::uint16_t* degree = drop.connectivity().degrees();
+  Eigen::AlignedBox3d box;
+  Vector3d sum = Vector3d::Zero();
+  const Vector3d dv = gravity * dt;
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    if (degree[i] == 0) continue;
+    v.col(i) += dv;
+    x.col(i) += v.col(i) * dt;
+    box.extend(Vector3d(x.col(i)));
+    sum += x.col(i) + v.col(i);
+  }
+  if (!sum.allFinite())
+    throw NumericsError(
+        fmt::format("drop {}: a position or velocity is no longer finite; use a smaller time step", drop.id()));
+  return box;
+}
+
+/// Marks in `wet` the colliding vertices that belong to a wetted face.
+void mark_wetted(const Drop& drop, std::vector<std::uint8_t>& wet) {
+  const Contact* contact = drop.contact();
+  wet.assign(drop.num_rows(), 0);
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
+    if (!is_colliding(contact[i])) continue;
+    const Ring ring = drop.connectivity().ring(i);
+    bool previous = ring.degree > 0 && is_colliding(contact[ring.neighbour[ring.degree - 1]]);
+    for (int k = 0; k < ring.degree && wet[i] == 0; ++k) {
+      const bool colliding = is_colliding(contact[ring.neighbour[k]]);
+      wet[i] = colliding && previous;
+      previous = colliding;
+    }
+  }
+}
+
+/// Tells the contact line from the inside of the wetted area.
+void mark_contact_line(Drop& drop) {
+  Contact* contact = drop.contact();
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
+    if (contact[i] == Contact::free) continue;
+    const Ring ring = drop.connectivity().ring(i);
+    for (int k = 0; k < ring.degree; ++k)
+      if (contact[ring.neighbour[k]] == Contact::free) contact[i] = Contact::line;
+  }
+}
+
+/// Eq 2, relative to the solid: the new velocity.
+Vector3d apply_friction(const Vector3d& velocity, const Vector3d& solid_velocity, double epsilon) {
+  const Vector3d slip = velocity - solid_velocity;
+  const double speed = slip.norm();
+  if (speed <= epsilon) return solid_velocity;
+  return velocity - epsilon / speed * slip;
+}
+
+class Collider {
+ public:
+  Collider(Drop& drop, const std::vector<Solid>& solids, const Eigen::AlignedBox3d& box, double time, double dt,
+           const ExternalForcesOptions& options)
+      : drop_(drop),
+        solids_(solids),
+        x_(drop.positions()),
+        v_(drop.velocities()),
+        n_(drop.contact_normals()),
+        time_(time),
+        dt_(dt),
+        options_(options) {
+    for (std::size_t s = 0; s < solids.size(); ++s)
+      if (solids[s].is_near(box, time, 0)) near_.push_back(s);
+  }
+
+  /// Whether any vertex needs a look: some solid is near, or some vertex was on one.
+  bool has_work(bool was_in_contact) const { return !near_.empty() || was_in_contact; }
+
+  /// Eqs 1 and 2 at vertex i, which was in state `before` (`stays`: it cannot leave its solid).
+  bool collide(std::uint32_t i, Contact before, bool stays) {
+    std::int32_t& touched = drop_.contact_solid()[i];
+    if (!stays) touched = -1;
+    bool colliding = stays && touched >= 0;
+    if (colliding) place_on(static_cast<std::size_t>(touched), i, solids_[touched].query(x_.col(i), time_), true);
+    for (int pass = 0; pass < max_collision_passes; ++pass) {
+      std::size_t deepest = solids_.size();
+      SolidContact contact{0, Vector3d::Zero(), Vector3d::Zero()};
+      for (const std::size_t s : near_) {
+        if (colliding && static_cast<std::int32_t>(s) == touched) continue;
+        const SolidContact candidate = solids_[s].query(x_.col(i), time_);
+        if (candidate.distance <= 0 && (deepest == solids_.size() || candidate.distance < contact.distance)) {
+          deepest = s;
+          contact = candidate;
+        }
+      }
+      if (deepest == solids_.size()) break;
+      place_on(deepest, i, contact, !colliding);
+      if (!colliding) touched = static_cast<std::int32_t>(deepest);
+      colliding = true;
+    }
+    if (colliding) slow(i, before);
+    return colliding;
+  }
+
+ private:
+  /// To the nearest point of the solid, without relative velocity along the normal (Eq 1).
+  void place_on(std::size_t s, std::uint32_t i, const SolidContact& contact, bool keep_normal) {
+    const Vector3d relative = v_.col(i) - solids_[s].velocity(time_);
+    x_.col(i) = contact.point;
+    v_.col(i) -= relative.dot(contact.normal) * contact.normal;
+    if (keep_normal) n_.col(i) = contact.normal;
+  }
+
+  /// Friction, or no slip inside the wetted area; moves the vertex by the change of its velocity.
+  void slow(std::uint32_t i, Contact before) {
+    const Solid& solid = solids_[drop_.contact_solid()[i]];
+    const Vector3d solid_velocity = solid.velocity(time_);
+    const double epsilon = options_.friction_per_step ? solid.friction_speed : solid.friction_speed * dt_ * 240;
+    const Vector3d old = v_.col(i);
+    v_.col(i) =
+        options_.no_slip && before == Contact::wetted ? solid_velocity : apply_friction(old, solid_velocity, epsilon);
+    const Vector3d change = v_.col(i) - old, n = n_.col(i);
+    x_.col(i) += (change - change.dot(n) * n) * dt_;
+  }
+
+  Drop& drop_;
+  const std::vector<Solid>& solids_;
+  std::vector<std::size_t> near_;
+  Columns x_, v_, n_;
+  double time_, dt_;
+  const ExternalForcesOptions& options_;
+};
+
+}  // namespace
+
+ExternalForcesReport apply_external_forces(Drop& drop, const std::vector<Solid>& solids, double time, double dt,
+                                           const ExternalForcesOptions& options) {
+  ExternalForcesReport report;
+  const Eigen::AlignedBox3d box = fall(drop, options.gravity, dt);
+  if (solids.empty()) return report;
+  Contact* contact = drop.contact();
+  const auto n = static_cast<std::uint32_t>(drop.num_rows());
+  const bool was_in_contact = std::any_of(contact, contact + n, is_colliding);
+  Collider collider(drop, solids, box, time, dt, options);
+  if (!collider.has_work(was_in_contact)) return report;
+
+  std::vector<std::uint8_t>& stays = drop.workspace().fixed;
+  mark_wetted(drop, stays);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    if (drop.connectivity().degree(i) == 0) continue;
+    const bool colliding = collider.collide(i, contact[i], stays[i] != 0);
+    contact[i] = colliding ? Contact::wetted : Contact::free;
+    report.colliding += colliding;
+  }
+  mark_contact_line(drop);
+  return report;
+}
+
+void find_contact(Drop& drop, const std::vector<Solid>& solids, double time, double tolerance) {
+  Contact* contact = drop.contact();
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
+    contact[i] = Contact::free;
+    drop.contact_solid()[i] = -1;
+    double nearest = tolerance;
+    for (std::size_t s = 0; s < solids.size(); ++s) {
+      const SolidContact candidate = solids[s].query(drop.positions().col(i), time);
+      if (candidate.distance > nearest) continue;
+      nearest = candidate.distance;
+      contact[i] = Contact::wetted;
+      drop.contact_solid()[i] = static_cast<std::int32_t>(s);
+      drop.contact_normals().col(i) = candidate.normal;
+    }
+  }
+  mark_contact_line(drop);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/operators/mean_curvature_flow.h"
+
+#include "meniscus/core/error.h"
+#include "meniscus/geometry/flow_matrix.h"
+#include "meniscus/operators/collision_constraint.h"
+
+#include <fmt/format.h>
+
+namespace meniscus {
+namespace {
+
+/// Which rows the solve holds at zero; nullptr if none.
+const std::uint8_t* fixed_rows(Drop& drop, ContactInFlow contact_in_flow) {
+  if (contact_in_flow == ContactInFlow::slide) return nullptr;
+  std::vector<std::uint8_t>& fixed = drop.workspace().fixed;
+  fixed.resize(drop.num_rows());
+  bool any = false;
+  for (std::size_t i = 0; i < fixed.size(); ++i) any |= (fixed[i] = is_colliding(drop.contact()[i])) != 0;
+  return any ? fixed.data() : nullptr;
+}
+
+}  // namespace
+
+SolveReport flow_by_mean_curvature(Drop& drop, const SurfaceGeometry& geometry, double dt,
+                                   const MeanCurvatureFlowOptions& options) {
+  const double step = options.coefficient * dt;
+  const std::size_t n = drop.num_rows();
+  if (step == 0 || n == 0) return {};
+  Workspace& work = drop.workspace();
+  work.rhs.resize(n);
+  work.solution.resize(n);
+  Columns x = drop.positions(), v = drop.velocities(), last = drop.displacements();
+
+  assemble_flow_matrix(drop.connectivity(), geometry, step, options.clamp_negative_weights, work.matrix);
+  curvature_right_hand_side(drop.connectivity(), work.matrix, x, work.rhs.data());
+  for (std::size_t i = 0; i < n; ++i) work.solution[i] = to_lanes(last.col(static_cast<Eigen::Index>(i)));
+  const SolveReport report =
+      work.solver.solve(drop.connectivity(), work.matrix, work.rhs.data(), work.solution.data(),
+                        fixed_rows(drop, options.contact), drop.flow_pattern_changed(), options.solver);
+  if (!report.converged)
+    throw NumericsError(
+        fmt::format("drop {}: curvature flow did not converge in {} iterations (residual {:.1e}); use a "
+                    "smaller time step or a looser solver tolerance",
+                    drop.id(), report.iterations, report.relative_residual));
+
+  const double per_second = dt > 0 ? 1 / dt : 0;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const Eigen::Vector3d move = constrain_to_solid(drop, i, to_eigen(work.solution[i]));
+    last.col(i) = move;
+    x.col(i) += move;
+    v.col(i) += move * per_second;
+  }
+  return report;
+}
+
+}  // namespace meniscus

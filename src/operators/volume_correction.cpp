@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/operators/volume_correction.h"
+
+#include "meniscus/core/error.h"
+#include "meniscus/geometry/flow_matrix.h"
+#include "meniscus/geometry/rigid_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Secants need two rounds for a step's change of volume; more are for the first after a merge or a split.
+constexpr int max_rounds = 6;
+constexpr double volume_tolerance = 1e-12;
+
+bool takes_part(const Drop& drop, std::uint32_t i) {
+  return drop.connectivity().degree(i) > 0 && !is_colliding(drop.contact()[i]);
+}
+
+/// a_i = u_i . n_i (Eq 9), u without the rigid motion.
+void normal_rates(const Drop& drop, const SurfaceGeometry& geometry, std::vector<double>& rate) {
+  const ConstColumns x = drop.positions(), v = drop.velocities();
+  const RigidMotion rigid = fit_rigid_motion(x, v, geometry);
+  rate.resize(drop.num_rows());
+  for (std::uint32_t i = 0; i < rate.size(); ++i) rate[i] = (v.col(i) - rigid.at(x.col(i))).dot(geometry.normal(i));
+}
+
+/// a_bar_i (Eq 10): the area-weighted mean over the neighbours of i.
+double mean_rate(const Drop& drop, const SurfaceGeometry& geometry, const std::vector<double>& rate, std::uint32_t i) {
+  const Ring ring = drop.connectivity().ring(i);
+  double sum = 0, area = 0;
+  for (int k = 0; k < ring.degree; ++k) {
+    const double a = geometry.lumped_area(ring.neighbour[k]);
+    sum += a * rate[ring.neighbour[k]];
+    area += a;
+  }
+  return area > 0 ? sum / area : 0;
+}
+
+/// Eqs 9-11 as written: what they take away at each vertex (cm/s), into workspace.more_scalars.
+void one_ring_mean_of_velocity(Drop& drop, const SurfaceGeometry& geometry) {
+  std::vector<double>& rate = drop.workspace().scalars;
+  std::vector<double>& mean = drop.workspace().more_scalars;
+  normal_rates(drop, geometry, rate);
+  mean.resize(drop.num_rows());
+  for (std::uint32_t i = 0; i < mean.size(); ++i) mean[i] = mean_rate(drop, geometry, rate, i);
+}
+
+/// (M + r^2 L) q_bar = M q for the normal part q of the last flow; q_bar/dt into workspace.more_scalars.
+void neighbourhood_mean_of_flow(Drop& drop, const SurfaceGeometry& geometry, double dt, const SolverOptions& solver) {
+  Workspace& work = drop.workspace();
+  const std::size_t n = drop.num_rows();
+  const double length = 2 * 3 * drop.target_volume() / geometry.area();
+  work.rhs.resize(n);
+  work.solution.resize(n);
+  work.more_scalars.resize(n);
+  double flux = 0;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double q = drop.displacements().col(i).dot(geometry.normal(i)) * geometry.lumped_area(i);
+    flux += q;
+    work.rhs[i] = Lanes{q, 0, 0, 0};
+  }
+  std::fill(work.solution.begin(), work.solution.end(), Lanes{flux / geometry.area(), 0, 0, 0});
+  assemble_flow_matrix(drop.connectivity(), geometry, length * length, true, work.matrix);
+  const SolveReport report =
+      work.solver.solve(drop.connectivity(), work.matrix, work.rhs.data(), work.solution.data(), nullptr, true, solver);
+  if (!report.converged)
+    throw NumericsError(fmt::format("drop {}: the local volume correction did not converge in {} iterations (residual {:.1e})",
+                                    drop.id(), report.iterations, report.relative_residual));
+  for (std::size_t i = 0; i < n; ++i) work.more_scalars[i] = work.solution[i][0] / dt;
+}
+
+void correct_locally(Drop& drop, const SurfaceGeometry& geometry, double dt, const VolumeCorrectionOptions& options) {
+  if (options.local == LocalCorrection::smooth_velocity)
+    one_ring_mean_of_velocity(drop, geometry);
+  else
+    neighbourhood_mean_of_flow(drop, geometry, dt, options.solver);
+  const std::vector<double>& excess = drop.workspace().more_scalars;
+  Columns x = drop.positions(), v = drop.velocities();
+  for (std::uint32_t i = 0; i < excess.size(); ++i) {
+    if (!takes_part(drop, i)) continue;
+    const Vector3d change = -excess[i] * geometry.normal(i);
+    v.col(i) += change;
+    x.col(i) += change * dt;
+  }
+}
+
+/// Offsets the surface by d = (V_target - V)/A until the volume fits.
+void correct_globally(Drop& drop, const SurfaceGeometry& geometry, double dt, double limit,
+                      VolumeCorrectionReport& report) {
+  Columns x = drop.positions(), v = drop.velocities();
+  const auto n = static_cast<std::uint32_t>(drop.num_rows());
+  double area = 0;  // dV/dd
+  for (std::uint32_t i = 0; i < n; ++i)
+    if (takes_part(drop, i)) area += geometry.area_vector(i).dot(geometry.normal(i)) / 3;
+  const double target = drop.target_volume();
+  double error = drop.volume() - target;
+  report.relative_error_before = report.relative_error = error / target;
+  if (!(area > 0)) return;
+  for (int round = 0; round < max_rounds && std::abs(error) > volume_tolerance * target && !report.limited;
+       ++round) {
+    double d = -error / area;
+    const double total = std::clamp(report.offset + d, -limit, limit);
+    report.limited = total != report.offset + d;
+    d = total - report.offset;
+    report.offset = total;
+    for (std::uint32_t i = 0; i < n; ++i)
+      if (takes_part(drop, i)) x.col(i) += d * geometry.normal(i);
+    const double error_old = error;
+    error = drop.volume() - target;
+    if (error != error_old) area = (error - error_old) / d;  // the secant: the normals are the step's start's
+  }
+  report.relative_error = error / target;
+  const double speed = report.offset / dt;
+  for (std::uint32_t i = 0; i < n; ++i)
+    if (takes_part(drop, i)) v.col(i) += speed * geometry.normal(i);
+}
+
+}  // namespace
+
+VolumeCorrectionReport correct_volume(Drop& drop, const SurfaceGeometry& geometry, double dt,
+                                      const VolumeCorrectionOptions& options) {
+  VolumeCorrectionReport report;
+  using Method = VolumeCorrectionMethod;
+  report.relative_error = std::numeric_limits<double>::quiet_NaN();
+  if (drop.num_rows() == 0) return report;
+  if (options.method == Method::local || options.method == Method::local_then_global)
+    correct_locally(drop, geometry, dt, options);
+  if (options.method == Method::global || options.method == Method::local_then_global)
+    correct_globally(drop, geometry, dt, options.offset_limit, report);
+  return report;
+}
+
+}  // namespace meniscus

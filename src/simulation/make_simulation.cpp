@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/core/error.h"
+#include "meniscus/geometry/rigid_motion.h"
+#include "meniscus/geometry/shapes.h"
+#include "meniscus/io/read_mesh.h"
+#include "meniscus/operators/external_forces.h"
+#include "meniscus/simulation/simulation.h"
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr const char* velocity_names[] = {"vx", "vy", "vz"};
+
+Eigen::Matrix3d rotation_matrix(const Vector3d& angles) {
+  return (Eigen::AngleAxisd(angles.z(), Vector3d::UnitZ()) * Eigen::AngleAxisd(angles.y(), Vector3d::UnitY()) *
+          Eigen::AngleAxisd(angles.x(), Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+/// Rotates a mesh about a point.
+void rotate(Mesh& mesh, const Vector3d& angles, const Vector3d& center) {
+  if (angles.isZero(0)) return;
+  const Eigen::Matrix3d rotation = rotation_matrix(angles);
+  Columns x = positions(mesh);
+  for (Eigen::Index i = 0; i < x.cols(); ++i) x.col(i) = center + rotation * (x.col(i) - center);
+}
+
+/// Scales and rotates about the origin, then translates; velocities that the mesh brings turn along.
+void place(MeshData& data, double scale, const Vector3d& angles, const Vector3d& translation) {
+  const Eigen::Matrix3d rotation = rotation_matrix(angles);
+  for (auto& point : data.points) {
+    const Eigen::Map<Vector3d> p(point.data());
+    Eigen::Map<Vector3d>(point.data()) = Vector3d(rotation * (scale * p) + translation);
+  }
+  VertexAttribute* component[3] = {};
+  for (auto& attribute : data.attributes)
+    for (int k = 0; k < 3; ++k)
+      if (attribute.name == velocity_names[k]) component[k] = &attribute;
+  if (!component[0] || !component[1] || !component[2] || angles.isZero(0)) return;
+  for (std::size_t v = 0; v < data.points.size(); ++v) {
+    const Vector3d turned =
+        rotation * Vector3d(component[0]->values[v], component[1]->values[v], component[2]->values[v]);
+    for (int k = 0; k < 3; ++k) component[k]->values[v] = turned[k];
+  }
+}
+
+/// A triangle mesh that a scene names, placed as it says.
+template <class Spec>
+MeshData read_placed_mesh(const Scene& scene, const Spec& spec) {
+  MeshData data = read_mesh(scene.locate(spec.file));
+  place(data, spec.scale, spec.rotation, spec.translation);
+  return data;
+}
+
+const char* shape_name(DropShape shape) {
+  constexpr const char* names[] = {"sphere", "ellipsoid", "box", "cap", "mesh"};
+  return names[static_cast<std::size_t>(shape)];
+}
+
+/// The contact radius of a spherical cap with the volume of a ball of radius `ball_radius`.
+double cap_contact_radius(double ball_radius, double angle) {
+  const double c = std::cos(angle);
+  const double volume = 4 * pi / 3 * std::pow(ball_radius, 3);
+  const double cap_radius = std::cbrt(3 * volume / (pi * (2 - 3 * c + c * c * c)));
+  return cap_radius * std::sin(angle);
+}
+
+/// The plane that a cap sits on: the reader has checked that it is there.
+const SolidSpec& plane_of(const Scene& scene, const DropSpec& spec) {
+  for (const SolidSpec& solid : scene.solids)
+    if (solid.name == spec.on) return solid;
+  throw UsageError(fmt::format("a cap sits on \"{}\", but no solid has that name", spec.on));
+}
+
+Mesh make_cap_on_plane(const Scene& scene, const DropSpec& spec, double edge_length) {
+  const SolidSpec& plane = plane_of(scene, spec);
+  const Vector3d normal = plane.normal.normalized();
+  const double angle = spec.angle.value_or(0.5 * (plane.advancing_angle + plane.receding_angle));
+  const Vector3d center = spec.center - (spec.center - plane.point).dot(normal) * normal;
+  return make_cap(center, normal, cap_contact_radius(spec.radius, angle), angle, edge_length);
+}
+
+/// The mesh of one drop that is given by its shape.
+Mesh make_shape(const Scene& scene, const DropSpec& spec) {
+  const double edge_length = 0.5 * (scene.mesh.edge_min + scene.mesh.edge_max);
+  Mesh mesh;
+  switch (spec.shape) {
+    case DropShape::sphere: return make_sphere(spec.center, spec.radius, edge_length);
+    case DropShape::cap: return make_cap_on_plane(scene, spec, edge_length);
+    case DropShape::ellipsoid: mesh = make_ellipsoid(spec.center, spec.semi_axes, edge_length); break;
+    case DropShape::box: mesh = make_box(spec.center, spec.size, edge_length); break;
+    case DropShape::mesh: throw UsageError("a mesh file is no shape");  // make_drops reads it
+  }
+  rotate(mesh, spec.rotation, spec.center);
+  return mesh;
+}
+
+/// Adds the velocity and the rotation about the centre of mass that the scene gives.
+void set_in_motion(Drop& drop, const DropSpec& spec) {
+  drop.workspace().geometry.compute(std::as_const(drop).positions(), drop.connectivity());
+  Columns x = drop.positions(), v = drop.velocities();
+  const Vector3d center = fit_rigid_motion(x, v, drop.workspace().geometry).center;
+  for (Eigen::Index i = 0; i < v.cols(); ++i)
+    v.col(i) += spec.velocity + spec.angular_velocity.cross(Vector3d(x.col(i)) - center);
+}
+
+std::vector<Drop> make_drops_of(const Scene& scene, const DropSpec& spec) {
+  if (spec.shape == DropShape::mesh) return to_drops(read_placed_mesh(scene, spec));
+  std::vector<Drop> drops;
+  drops.emplace_back(make_shape(scene, spec));
+  return drops;
+}
+
+}  // namespace
+
+std::vector<Drop> make_drops(const Scene& scene, const std::vector<Solid>& solids) {
+  std::vector<Drop> drops;
+  for (std::size_t d = 0; d < scene.drops.size(); ++d) {
+    const DropSpec& spec = scene.drops[d];
+    try {
+      for (Drop& drop : make_drops_of(scene, spec)) {
+        set_in_motion(drop, spec);
+        find_contact(drop, solids, 0, contact_tolerance);
+        drop.set_id(static_cast<int>(drops.size()));
+        drops.push_back(std::move(drop));
+      }
+    } catch (const GeometryError& error) {
+      const std::string what = spec.shape == DropShape::mesh ? scene.locate(spec.file).string() : shape_name(spec.shape);
+      throw GeometryError(fmt::format("drop {} ({}): {}", d, what, error.what()), error.faces(), error.vertices());
+    }
+  }
+  return drops;
+}
+
+StepOptions make_step_options(const Scene& scene) {
+  StepOptions options;
+  options.level = scene.model;
+  options.gravity = scene.gravity;
+  options.liquid = scene.liquid;
+  options.paper = scene.paper;
+  options.volume_correction = scene.volume_correction;
+  options.band = scene.mesh;
+  options.split = scene.topology.split;
+  options.solver = scene.solver;
+  return options;
+}
+
+}  // namespace meniscus

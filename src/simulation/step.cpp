@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/simulation/step.h"
+
+#include "meniscus/operators/contact_angle.h"
+#include "meniscus/operators/damping.h"
+#include "meniscus/operators/external_forces.h"
+#include "meniscus/operators/mean_curvature_flow.h"
+#include "meniscus/operators/volume_correction.h"
+#include "meniscus/topology/split.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+/// Adds up seconds by stage, if there is a clock.
+class StageClock {
+ public:
+  StageClock(double (*clock)(), StepReport& report) : clock_(clock), report_(report), last_(clock ? clock() : 0) {}
+  void done(Stage stage) {
+    if (!clock_) return;
+    const double now = clock_();
+    report_.stage_seconds[static_cast<std::size_t>(stage)] += now - last_;
+    last_ = now;
+  }
+
+ private:
+  double (*clock_)();
+  StepReport& report_;
+  double last_;
+};
+
+/// c = 2 sigma/(rho R), cm^3/s^2: the acceleration that a mean curvature of 1/cm gives a drop whose
+/// lowest mode runs at Rayleigh's frequency; R = 3 V/A of the water-air surface.
+double tension_over_mass(const Drop& drop, const SurfaceGeometry& geometry, const Liquid& liquid) {
+  const double length = 3 * drop.target_volume() / (geometry.area() - wetted_area(drop));
+  return 2 * liquid.surface_tension / (liquid.density * length);
+}
+
+ExternalForcesOptions external_forces_options(const StepOptions& step) {
+  ExternalForcesOptions options;
+  options.gravity = step.gravity;
+  options.friction_per_step = step.level == Level::paper;
+  options.no_slip = step.level != Level::paper;
+  return options;
+}
+
+/// Lamb's decay by mu >= 0 and eta: a velocity damping rate b gives the amplitude the rate b/2, and
+/// eta = 2.456 nu fits b to twice (n - 1)(2 n + 1) nu/R^2 for modes 2 to 8.
+constexpr double viscosity_to_eta = 2.456;
+
+DampingOptions damping_options(const StepOptions& step) {
+  DampingOptions options;
+  options.solver = step.solver;
+  if (step.level == Level::paper) {
+    options.damping_rate = step.paper.damping_rate;
+    options.viscosity_coefficient = step.paper.viscosity_coefficient;
+  } else {
+    options.viscosity_coefficient = viscosity_to_eta * step.liquid.viscosity;
+    options.keep_rigid_motion = true;
+    options.tangential_damping = 1;
+  }
+  return options;
+}
+
+MeanCurvatureFlowOptions flow_options(const StepOptions& step, double tension, double dt) {
+  MeanCurvatureFlowOptions options;
+  options.solver = step.solver;
+  if (step.level == Level::paper) {
+    options.coefficient = step.paper.curvature_flow_coefficient;
+    options.clamp_negative_weights = false;
+  } else {
+    options.coefficient = tension * dt;
+  }
+  return options;
+}
+
+ContactAngleOptions contact_angle_options(const StepOptions& step, double tension) {
+  ContactAngleOptions options;
+  options.force = step.level == Level::paper ? ContactForce::measured_angle : ContactForce::virtual_work;
+  options.boundary_force = step.paper.boundary_force;
+  options.tension_over_mass = tension;
+  return options;
+}
+
+VolumeCorrectionOptions volume_options(const StepOptions& step) {
+  VolumeCorrectionOptions options;
+  options.method = step.volume_correction;
+  options.local = step.level == Level::paper ? LocalCorrection::smooth_velocity : LocalCorrection::local_pressure;
+  options.solver = step.solver;
+  options.solver.tolerance = std::max(options.solver.tolerance, 1e-3);  // what it leaves is the global part's
+  options.offset_limit = 0.25 * step.band.edge_min;
+  return options;
+}
+
+RemeshOptions remesh_options(const StepOptions& step) {
+  RemeshOptions options;
+  options.band = step.band;
+  options.cut_necks = step.split;
+  return options;
+}
+
+}  // namespace
+
+const char* stage_name(Stage stage) {
+  constexpr const char* names[num_stages] = {"external_forces", "geometry",          "damping", "curvature_flow",
+                                             "contact_angle",   "volume_correction", "remesh",  "split"};
+  return names[static_cast<std::size_t>(stage)];
+}
+
+StepReport& StepReport::operator+=(const StepReport& other) {
+  for (std::size_t k = 0; k < num_stages; ++k) stage_seconds[k] += other.stage_seconds[k];
+  triangles += other.triangles;
+  edge_operations += other.edge_operations;
+  cuts += other.cuts;
+  deleted += other.deleted;
+  limited_volume += other.limited_volume;
+  solver_iterations = std::max(solver_iterations, other.solver_iterations);
+  worst_volume_error = std::max(worst_volume_error, other.worst_volume_error);
+  return *this;
+}
+
+std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt, const StepOptions& options,
+                            Remesher& remesher, StepReport& report) {
+  StageClock clock(options.clock, report);
+  const ExternalForcesReport forces = apply_external_forces(drop, solids, time, dt, external_forces_options(options));
+  clock.done(Stage::external_forces);
+
+  SurfaceGeometry& geometry = drop.workspace().geometry;
+  geometry.compute(std::as_const(drop).positions(), drop.connectivity());
+  const double tension = tension_over_mass(drop, geometry, options.liquid);
+  clock.done(Stage::geometry);
+
+  apply_damping(drop, geometry, dt, damping_options(options));
+  clock.done(Stage::damping);
+
+  const SolveReport flow = flow_by_mean_curvature(drop, geometry, dt, flow_options(options, tension, dt));
+  report.solver_iterations = std::max(report.solver_iterations, flow.iterations);
+  clock.done(Stage::curvature_flow);
+
+  if (forces.colliding > 0) apply_contact_angle(drop, solids, geometry, time, dt, contact_angle_options(options, tension));
+  clock.done(Stage::contact_angle);
+
+  const VolumeCorrectionReport volume = correct_volume(drop, geometry, dt, volume_options(options));
+  report.limited_volume += volume.limited;
+  if (volume.relative_error == volume.relative_error)
+    report.worst_volume_error = std::max(report.worst_volume_error, std::abs(volume.relative_error));
+  clock.done(Stage::volume_correction);
+
+  std::vector<Drop> pieces;
+  RemeshReport remeshed;
+  if (options.remesh) remeshed = remesher.remesh(drop, remesh_options(options));
+  report.edge_operations += remeshed.splits + remeshed.collapses + remeshed.flips;
+  report.cuts += remeshed.cuts;
+  clock.done(Stage::remesh);
+
+  if (remeshed.cuts > 0) {
+    SplitReport split;
+    pieces = split_components(std::move(drop), split);
+    report.deleted += split.deleted + split.deleted_empty;
+  } else {
+    pieces.push_back(std::move(drop));
+  }
+  for (const Drop& piece : pieces) report.triangles += piece.mesh().number_of_faces();
+  clock.done(Stage::split);
+  return pieces;
+}
+
+}  // namespace meniscus

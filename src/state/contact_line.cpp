@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/state/contact_line.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A face of three colliding vertices lies on the solid if it faces into it.
+bool is_wetted(const Contact* contact, std::uint32_t a, std::uint32_t b, const Vector3d& area_vector,
+               const Vector3d& solid_normal) {
+  return is_colliding(contact[a]) && is_colliding(contact[b]) && area_vector.dot(solid_normal) < 0;
+}
+
+/// The half cotangent sum that triangle (v, a, b) adds to L_vv: |b - a|^2 / (4 area).
+double stiffness_of(const Vector3d& opposite_edge, double area) {
+  return area > 0 ? opposite_edge.squaredNorm() / (4 * area) : 0;
+}
+
+}  // namespace
+
+std::optional<ContactLineVertex> contact_line_vertex(const Drop& drop, std::uint32_t v) {
+  const ConstColumns x = drop.positions();
+  const Contact* contact = drop.contact();
+  const Vector3d normal = drop.contact_normals().col(v), p = x.col(v);
+  const Ring ring = drop.connectivity().ring(v);
+  Vector3d wet_gradient = Vector3d::Zero(), air_gradient = Vector3d::Zero(), air_normal = Vector3d::Zero();
+  ContactLineVertex line{};
+  for (int k = 0; k < ring.degree; ++k) {
+    const std::uint32_t a = ring.neighbour[k], b = ring.neighbour[k + 1 == ring.degree ? 0 : k + 1];
+    const Vector3d opposite = x.col(b) - x.col(a);
+    const Vector3d area_vector = 0.5 * (x.col(a) - p).cross(x.col(b) - p);
+    const double area = area_vector.norm();
+    if (!(area > 0)) continue;
+    const Vector3d gradient = 0.5 / area * area_vector.cross(opposite);  // of the face's area, at v
+    if (is_wetted(contact, a, b, area_vector, normal)) {
+      wet_gradient += gradient;
+    } else {
+      air_gradient += gradient;
+      air_normal += area_vector;
+      line.stiffness += stiffness_of(opposite, area);
+    }
+  }
+  wet_gradient -= wet_gradient.dot(normal) * normal;
+  line.length = wet_gradient.norm();
+  if (!(line.length > 0) || !(air_normal.norm() > 0)) return std::nullopt;
+  line.outward = wet_gradient / line.length;
+  line.angle = std::acos(std::clamp(air_normal.normalized().dot(normal), -1.0, 1.0));
+  line.energy_cosine = air_gradient.dot(line.outward) / line.length;
+  return line;
+}
+
+std::optional<double> mean_contact_angle(const Drop& drop) {
+  double sum = 0, length = 0;
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
+    if (drop.contact()[v] != Contact::line) continue;
+    if (const auto line = contact_line_vertex(drop, v)) {
+      sum += line->length * line->angle;
+      length += line->length;
+    }
+  }
+  if (!(length > 0)) return std::nullopt;
+  return sum / length;
+}
+
+double wetted_area(const Drop& drop) {
+  const ConstColumns x = drop.positions();
+  const Contact* contact = drop.contact();
+  double area = 0;
+  for (const auto& [a, b, c] : drop.connectivity().triangles()) {
+    if (a == Connectivity::removed || !is_colliding(contact[a])) continue;
+    const Vector3d area_vector = 0.5 * (x.col(b) - x.col(a)).cross(x.col(c) - x.col(a));
+    if (is_wetted(contact, b, c, area_vector, drop.contact_normals().col(a))) area += area_vector.norm();
+  }
+  return area;
+}
+
+}  // namespace meniscus

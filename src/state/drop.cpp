@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/state/drop.h"
+
+#include "meniscus/core/error.h"
+
+#include <CGAL/boost/graph/helpers.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+namespace meniscus {
+namespace {
+
+void check_closed_and_finite(const Mesh& mesh) {
+  if (mesh.number_of_faces() == 0) throw GeometryError("the mesh is empty: a drop needs at least four faces");
+  for (const auto f : mesh.faces())
+    if (mesh.next(mesh.next(mesh.next(mesh.halfedge(f)))) != mesh.halfedge(f))
+      throw GeometryError(fmt::format("face {} is not a triangle; triangulate the mesh first", std::size_t{f}), {f});
+  for (const auto h : mesh.halfedges())
+    if (mesh.is_border(h))
+      throw GeometryError(fmt::format("the mesh is open at edge {}-{}; a drop must be closed: fill its holes first",
+                                      std::size_t{mesh.source(h)}, std::size_t{mesh.target(h)}),
+                          {}, {mesh.source(h), mesh.target(h)});
+  for (const auto v : mesh.vertices()) {
+    const Point& p = mesh.point(v);
+    if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z()))
+      throw GeometryError(fmt::format("vertex {} has a coordinate that is not a finite number", std::size_t{v}), {},
+                          {v});
+    if (mesh.is_isolated(v))
+      throw GeometryError(fmt::format("vertex {} belongs to no face; remove it", std::size_t{v}), {}, {v});
+  }
+}
+
+}  // namespace
+
+Drop::Drop(Mesh mesh) : mesh_(std::move(mesh)) {
+  check_closed_and_finite(mesh_);
+  if (mesh_.has_garbage()) mesh_.collect_garbage();
+  bind();
+  connectivity_.rebuild(mesh_);
+  target_volume_ = volume();
+  if (!(target_volume_ > 0))
+    throw GeometryError(
+        fmt::format("the mesh encloses {} cm^3: its faces point inward; reverse their orientation", target_volume_));
+}
+
+Drop::Drop(const Drop& other)
+    : mesh_(other.mesh_),
+      connectivity_(other.connectivity_),
+      target_volume_(other.target_volume_),
+      topology_version_(other.topology_version_),
+      id_(other.id_) {
+  bind();
+}
+
+Drop& Drop::operator=(const Drop& other) {
+  if (this != &other) *this = Drop(other);
+  return *this;
+}
+
+void Drop::bind() {
+  velocity_ = mesh_.add_property_map<VertexIndex, Vector>("v:velocity", Vector(0, 0, 0)).first;
+  displacement_ = mesh_.add_property_map<VertexIndex, Vector>("v:displacement", Vector(0, 0, 0)).first;
+  contact_normal_ = mesh_.add_property_map<VertexIndex, Vector>("v:contact_normal", Vector(0, 0, 0)).first;
+  contact_ = mesh_.add_property_map<VertexIndex, Contact>("v:contact_state", Contact::free).first;
+  contact_solid_ = mesh_.add_property_map<VertexIndex, std::int32_t>("v:contact_solid", -1).first;
+  poor_quality_ = mesh_.add_property_map<VertexIndex, std::uint8_t>("v:poor_quality", 0).first;
+}
+
+bool Drop::collect_garbage(double share) {
+  const auto removed = mesh_.num_vertices() - mesh_.number_of_vertices();
+  if (removed == 0 || removed < share * mesh_.num_vertices()) return false;
+  mesh_.collect_garbage();
+  connectivity_.rebuild(mesh_);
+  topology_changed();
+  return true;
+}
+
+}  // namespace meniscus

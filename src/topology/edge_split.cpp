@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "remesh_state.h"
+
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+/// The midpoint of the cubic that meets both ends at right angles to their normals (as in PN
+/// triangles): (a + b)/2 - ((e.n_a) n_a - (e.n_b) n_b)/8 with e = b - a.
+Eigen::Vector3d curved_midpoint(const RemeshState& state, VertexIndex a, VertexIndex b) {
+  const Eigen::Vector3d p = state.point(a), q = state.point(b), e = q - p;
+  const Eigen::Vector3d na = state.normal(a), nb = state.normal(b);
+  return 0.5 * (p + q) - (e.dot(na) * na - e.dot(nb) * nb) / 8;
+}
+
+/// Would a new vertex at m turn one of the two halves of the face left of h too far?
+bool would_fold_at(const RemeshState& state, HalfedgeIndex h, const Eigen::Vector3d& m) {
+  const Eigen::Vector3d a = state.point(state.mesh.source(h)), b = state.point(state.mesh.target(h)),
+                        o = state.point(state.apex(h));
+  const Eigen::Vector3d n_old = (b - a).cross(o - a);
+  const double bound = std::cos(state.options.max_normal_turn);
+  const auto turns_too_far = [&](const Eigen::Vector3d& n_new) {
+    return !(n_new.dot(n_old) > bound * n_new.norm() * n_old.norm());
+  };
+  return turns_too_far((m - a).cross(o - a)) || turns_too_far((b - m).cross(o - m));
+}
+
+Contact contact_of_midpoint(const RemeshState& state, HalfedgeIndex h) {
+  if (state.inside_wetted_area(h)) return Contact::wetted;
+  return state.is_contact_line(h) ? Contact::line : Contact::free;
+}
+
+void set_contact(RemeshState& state, VertexIndex v, Contact contact) {
+  Drop& drop = state.drop;
+  drop.contact()[v] = contact;
+  if (is_colliding(contact)) {
+    drop.contact_normals().col(v).stableNormalize();
+  } else {
+    drop.contact_solid()[v] = -1;
+  }
+}
+
+}  // namespace
+
+Refusal try_split(RemeshState& state, HalfedgeIndex h) {
+  Mesh& mesh = state.mesh;
+  if (!state.is_long(state.squared_length(h))) return Refusal::not_wanted;
+  const auto a = mesh.source(h), b = mesh.target(h), o = state.apex(h), p = state.apex(mesh.opposite(h));
+  const Eigen::Vector3d middle = 0.5 * (state.point(a) + state.point(b));
+  if (state.is_forbidden(middle)) return Refusal::near_intersection;
+
+  const Contact contact = contact_of_midpoint(state, h);
+  Eigen::Vector3d m = middle;
+  if (!is_colliding(contact) && !state.is_feature(h)) {
+    m = curved_midpoint(state, a, b);
+    if (would_fold_at(state, h, m) || would_fold_at(state, mesh.opposite(h), m)) m = middle;
+  }
+  if (!state.scratch.attributes.is_bound()) state.scratch.attributes.bind(mesh);
+  // The faces left and right become quadrangles by the new vertex, then two triangles each.
+  const auto first_half = CGAL::Euler::split_edge(h, mesh);
+  const auto v = mesh.target(first_half);
+  CGAL::Euler::split_face(first_half, mesh.next(mesh.next(first_half)), mesh);
+  const auto back = mesh.opposite(h);
+  CGAL::Euler::split_face(back, mesh.next(mesh.next(back)), mesh);
+  mesh.point(v) = to_point(m);
+  state.scratch.attributes.interpolate(v, a, b, 0.5);
+  if (state.has_contact) set_contact(state, v, contact);
+  state.connectivity.grow(mesh);
+  for (const auto changed : {v, a, b, o, p}) state.update(changed);
+  state.queue_ring(v);
+  ++state.report.splits;
+  return Refusal::none;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/topology/remesh.h"
+
+#include "meniscus/core/error.h"
+#include "remesh_state.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+constexpr double poor_angle_tangent = 0.17632698;  // tan(10 degrees)
+
+/// The squared sides of a triangle and what follows from them: corner k faces side k.
+struct Sides {
+  std::array<double, 3> squared;
+  double least, greatest, sum;
+
+  Sides(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r)
+      : squared{(r - q).squaredNorm(), (p - r).squaredNorm(), (q - p).squaredNorm()},
+        least(std::min({squared[0], squared[1], squared[2]})),
+        greatest(std::max({squared[0], squared[1], squared[2]})),
+        sum(squared[0] + squared[1] + squared[2]) {}
+
+  bool is_obtuse() const { return sum < 2 * greatest; }
+  /// Least angle under 10 degrees: tan = 2 A / dot, and (2 A)^2 = s_0 s_1 - dot_2^2.
+  bool is_poor() const {
+    const double dot = 0.5 * (sum - 2 * least), middle = sum - least - greatest;
+    return middle * greatest - dot * dot < poor_angle_tangent * poor_angle_tangent * dot * dot;
+  }
+};
+
+HalfedgeIndex halfedge_from(const Mesh& mesh, FaceIndex f, std::uint32_t source) {
+  auto h = mesh.halfedge(f);
+  while (std::uint32_t{mesh.source(h)} != source) h = mesh.next(h);
+  return h;
+}
+
+/// Queues each edge that needs it once: from the face in which it runs to the larger index.
+void inspect_face(RemeshState& state, FaceIndex f, const Sides& sides, bool is_wet) {
+  const auto& t = state.connectivity.triangles()[f];
+  const double low2 = state.options.band.edge_min * state.options.band.edge_min;
+  const double high2 = state.options.band.edge_max * state.options.band.edge_max;
+  if (sides.is_poor())
+    for (const auto v : t) state.drop.poor_quality()[v] = 1;
+  for (int k = 0; k < 3; ++k) {
+    const auto u = t[(k + 1) % 3], v = t[(k + 2) % 3];
+    const double length2 = sides.squared[k];
+    if (u < v && (is_wet || length2 < low2 || length2 > high2)) state.queue(state.mesh.edge(halfedge_from(state.mesh, f, u)));
+    if (sides.sum < 2 * length2) {  // obtuse at corner k
+      const auto h = halfedge_from(state.mesh, f, u);
+      if (cotangent_sum(state, h) < negative_weight) state.queue_flip(state.mesh.edge(h));
+    }
+  }
+}
+
+/// Left out of the band, and still so?
+void count_left_out(RemeshState& state) {
+  auto& refused = state.scratch.refused;
+  std::stable_sort(refused.begin(), refused.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  EdgeIndex last = Mesh::null_edge();
+  for (const auto& [e, why] : refused) {
+    if (e == last || state.mesh.is_removed(e)) continue;
+    last = e;
+    const auto h = state.mesh.halfedge(e);
+    const double length2 = state.squared_length(h);
+    if (!state.is_long(length2) && !state.is_short(length2)) continue;
+    ++(state.is_long(length2) ? state.report.edges_above : state.report.edges_below);
+    RefusedEdges& counts = state.report.refused;
+    switch (why) {
+      case Refusal::link_condition: ++counts.link_condition; break;
+      case Refusal::would_be_sliver: ++counts.would_be_sliver; break;
+      case Refusal::would_be_long: ++counts.would_be_long; break;
+      case Refusal::valence: ++counts.valence; break;
+      case Refusal::feature: ++counts.feature; break;
+      case Refusal::contact_line: ++counts.contact_line; break;
+      case Refusal::near_intersection: ++counts.near_intersection; break;
+      default: ++counts.would_invert; break;
+    }
+    for (const auto v : {state.mesh.source(h), state.mesh.target(h)}) state.drop.poor_quality()[v] = 1;
+  }
+}
+
+}  // namespace
+
+void scan(RemeshState& state) {
+  const auto& triangles = state.connectivity.triangles();
+  const Contact* contact = state.drop.contact();
+  const std::size_t rows = state.drop.num_rows();
+  state.has_contact = std::any_of(contact, contact + rows, is_colliding);
+  std::fill_n(state.drop.poor_quality(), rows, std::uint8_t{0});
+  const auto x = std::as_const(state.drop).positions();
+  const double low2 = state.options.band.edge_min * state.options.band.edge_min;
+  const double high2 = state.options.band.edge_max * state.options.band.edge_max;
+  for (std::uint32_t f = 0; f < triangles.size(); ++f) {
+    const auto& t = triangles[f];
+    if (t[0] == Connectivity::removed) continue;
+    const Sides sides(x.col(t[0]), x.col(t[1]), x.col(t[2]));
+    const bool is_wet = state.has_contact && is_colliding(contact[t[0]]) && is_colliding(contact[t[1]]) &&
+                        is_colliding(contact[t[2]]);
+    if (sides.least < low2 || sides.greatest > high2 || sides.is_obtuse() || sides.is_poor() || is_wet)
+      inspect_face(state, FaceIndex(f), sides, is_wet);
+  }
+}
+
+void mark_poor_quality(RemeshState& state) {
+  auto& changed = state.scratch.changed;
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  const auto x = std::as_const(state.drop).positions();
+  std::uint8_t* poor = state.drop.poor_quality();
+  for (const auto v : changed) poor[v] = 0;
+  for (const auto v : changed) {
+    const Ring r = state.ring(v);
+    for (int k = 0; k < r.degree; ++k) {
+      const auto p = r.neighbour[k], q = r.neighbour[k + 1 == r.degree ? 0 : k + 1];
+      if (Sides(x.col(v), x.col(p), x.col(q)).is_poor()) poor[v] = poor[p] = poor[q] = 1;
+    }
+  }
+  count_left_out(state);
+}
+
+void check_options(const RemeshOptions& options) {
+  const EdgeBand& band = options.band;
+  if (!(band.edge_min > 0) || !std::isfinite(band.edge_min) || !std::isfinite(band.edge_max))
+    throw UsageError(fmt::format("edge lengths must be finite and above 0: edge_min is {}, edge_max is {} (cm)",
+                                 band.edge_min, band.edge_max));
+  if (!(band.edge_max > 2 * band.edge_min))
+    throw UsageError(fmt::format("edge_max ({} cm) must be more than twice edge_min ({} cm), or edges would be split "
+                                 "and collapsed in turn; the paper takes three times",
+                                 band.edge_max, band.edge_min));
+  if (!(band.wetted_weight > 0 && band.wetted_weight <= 1))
+    throw UsageError(fmt::format("the wetted weight must lie in (0, 1]; it is {}", band.wetted_weight));
+  if (!(options.smoothing >= 0 && options.smoothing <= 1))
+    throw UsageError(fmt::format("the smoothing must lie in [0, 1]; it is {}", options.smoothing));
+  if (options.max_passes < 1) throw UsageError("remeshing needs at least one pass");
+  if (options.feature_angle && !(*options.feature_angle > 0 && *options.feature_angle < 3.1416))
+    throw UsageError(fmt::format("the feature angle must lie between 0 and 180 degrees; it is {} radians",
+                                 *options.feature_angle));
+}
+
+Remesher::Remesher() : scratch_(std::make_unique<Scratch>()) {}
+Remesher::~Remesher() = default;
+Remesher::Remesher(Remesher&&) noexcept = default;
+Remesher& Remesher::operator=(Remesher&&) noexcept = default;
+
+RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOptions& options) {
+  scratch.splits.clear();
+  scratch.collapses.clear();
+  for (const auto e : scratch.flips) scratch.in_flips[e] = 0;
+  scratch.flips.clear();
+  scratch.refused.clear();
+  scratch.changed.clear();
+  scratch.attributes.clear();
+  RemeshState state(drop, options, scratch);
+  scan(state);
+  const bool rests = scratch.splits.empty() && scratch.collapses.empty() && scratch.flips.empty();
+  if (rests && options.smoothing == 0) return state.report;
+  run_passes(state);
+  mark_poor_quality(state);
+  if (state.report.changed()) {
+    drop.topology_changed();
+    drop.collect_garbage();
+  }
+  return state.report;
+}
+
+RemeshReport Remesher::remesh(Drop& drop, const RemeshOptions& options) {
+  return remesh_with(*scratch_, drop, options);
+}
+
+RemeshReport remesh(Drop& drop, const RemeshOptions& options) {
+  check_options(options);
+  return Remesher().remesh(drop, options);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "remesh_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+bool comes_later_as_split(const QueuedEdge& a, const QueuedEdge& b) {
+  return a.squared_length != b.squared_length ? a.squared_length < b.squared_length : a.edge > b.edge;
+}
+bool comes_later_as_collapse(const QueuedEdge& a, const QueuedEdge& b) {
+  return a.squared_length != b.squared_length ? a.squared_length > b.squared_length : a.edge > b.edge;
+}
+
+}  // namespace
+
+Eigen::Vector3d RemeshState::area_vector(HalfedgeIndex h) const {
+  const Eigen::Vector3d a = point(mesh.source(h)), b = point(mesh.target(h)), c = point(apex(h));
+  return 0.5 * (b - a).cross(c - a);
+}
+
+Eigen::Vector3d RemeshState::normal(VertexIndex v) const {
+  const Ring r = ring(v);
+  const Eigen::Vector3d x = point(v);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d previous = point(VertexIndex(r.neighbour[r.degree - 1])) - x;
+  for (int k = 0; k < r.degree; ++k) {
+    const Eigen::Vector3d next = point(VertexIndex(r.neighbour[k])) - x;
+    sum += previous.cross(next);
+    previous = next;
+  }
+  const double length = sum.norm();
+  return length > 0 ? Eigen::Vector3d(sum / length) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
+bool RemeshState::is_wet_face(HalfedgeIndex h) const {
+  const auto v = mesh.source(h);
+  if (!colliding(v) || !colliding(mesh.target(h)) || !colliding(apex(h))) return false;
+  return area_vector(h).dot(std::as_const(drop).contact_normals().col(v)) < 0;
+}
+
+bool RemeshState::inside_wetted_area(HalfedgeIndex h) const {
+  return has_contact && is_wet_face(h) && is_wet_face(mesh.opposite(h));
+}
+
+bool RemeshState::is_contact_line(HalfedgeIndex h) const {
+  return has_contact && is_wet_face(h) != is_wet_face(mesh.opposite(h));
+}
+
+double RemeshState::squared_length(HalfedgeIndex h) const {
+  const double length2 = (point(mesh.target(h)) - point(mesh.source(h))).squaredNorm();
+  const double weight = options.band.wetted_weight;
+  return inside_wetted_area(h) ? weight * weight * length2 : length2;
+}
+
+bool RemeshState::is_long(double length2) const {
+  return length2 > options.band.edge_max * options.band.edge_max && std::isfinite(length2);
+}
+
+bool RemeshState::is_forbidden(const Eigen::Vector3d& p) const {
+  return std::any_of(scratch.forbidden.begin(), scratch.forbidden.end(), [&](const ForbiddenBall& ball) {
+    return (p - ball.center).squaredNorm() < ball.radius * ball.radius;
+  });
+}
+
+bool RemeshState::is_feature(HalfedgeIndex h) const {
+  if (!options.feature_angle) return false;
+  const Eigen::Vector3d n = area_vector(h), m = area_vector(mesh.opposite(h));
+  return n.dot(m) < std::cos(*options.feature_angle) * n.norm() * m.norm();
+}
+
+int RemeshState::feature_rank(VertexIndex v) const {
+  if (!options.feature_angle) return 0;
+  int count = 0;
+  std::array<Eigen::Vector3d, 2> directions;
+  for (const auto h : CGAL::halfedges_around_target(mesh.halfedge(v), mesh))
+    if (is_feature(h)) {
+      if (count < 2) directions[count] = (point(mesh.source(h)) - point(v)).normalized();
+      ++count;
+    }
+  if (count == 0) return 0;
+  return count == 2 && directions[0].dot(directions[1]) < -0.7 ? 1 : 2;
+}
+
+void RemeshState::queue(EdgeIndex e) {
+  const double length2 = squared_length(mesh.halfedge(e));
+  if (is_long(length2)) {
+    scratch.splits.push_back({length2, e});
+    std::push_heap(scratch.splits.begin(), scratch.splits.end(), comes_later_as_split);
+  } else if (is_short(length2)) {
+    scratch.collapses.push_back({length2, e});
+    std::push_heap(scratch.collapses.begin(), scratch.collapses.end(), comes_later_as_collapse);
+  }
+}
+
+void RemeshState::queue_flip(EdgeIndex e) {
+  if (scratch.in_flips.size() < mesh.num_edges()) scratch.in_flips.resize(mesh.num_edges(), 0);
+  if (scratch.in_flips[e]) return;
+  scratch.in_flips[e] = 1;
+  scratch.flips.push_back(e);
+}
+
+void RemeshState::queue_ring(VertexIndex v) {
+  for (const auto h : CGAL::halfedges_around_target(mesh.halfedge(v), mesh)) {
+    queue(mesh.edge(h));
+    queue_flip(mesh.edge(h));
+    queue_flip(mesh.edge(mesh.prev(h)));
+  }
+}
+
+void RemeshState::update(VertexIndex v) {
+  connectivity.update_vertex(mesh, v);
+  scratch.changed.push_back(v);
+}
+
+void RemeshState::update_contact(VertexIndex v) {
+  if (!colliding(v)) return;
+  const Ring r = ring(v);
+  bool has_free_neighbour = false;
+  for (int k = 0; k < r.degree; ++k) has_free_neighbour |= !colliding(VertexIndex(r.neighbour[k]));
+  drop.contact()[v] = has_free_neighbour ? Contact::line : Contact::wetted;
+}
+
+double cotangent_sum(const RemeshState& state, HalfedgeIndex h) {
+  const Eigen::Vector3d a = state.point(state.mesh.source(h)), b = state.point(state.mesh.target(h));
+  const auto cotangent = [&](VertexIndex o) {
+    const Eigen::Vector3d u = a - state.point(o), w = b - state.point(o);
+    const double twice_area = u.cross(w).norm();
+    return u.dot(w) / std::max(twice_area, 1e-12 * u.norm() * w.norm());
+  };
+  const auto o = state.apex(h), p = state.apex(state.mesh.opposite(h));
+  const double sum = cotangent(o) + cotangent(p);
+  return std::isfinite(sum) ? sum : 0;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "attribute_maps.h"
+#include "meniscus/topology/remesh.h"
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <vector>
+
+/// What the edge operations share. Each operation lies in a file of its own, with its predicates.
+namespace meniscus {
+
+/// Why an operation was not done.
+enum class Refusal {
+  none,  ///< it was done
+  link_condition,
+  would_invert,
+  would_be_sliver,
+  would_be_long,
+  valence,
+  feature,
+  contact_line,
+  near_intersection,
+  not_wanted,  ///< the edge is in the band, or its weight is not negative
+};
+
+struct QueuedEdge {
+  double squared_length;
+  EdgeIndex edge;
+};
+
+/// A ball (cm) in which nothing is touched.
+struct ForbiddenBall {
+  Eigen::Vector3d center;
+  double radius;
+};
+
+struct Remesher::Scratch {
+  std::vector<QueuedEdge> splits, collapses;  ///< heaps: longest first, shortest first
+  std::vector<QueuedEdge> splits_now;         ///< the heap of the round
+  std::vector<EdgeIndex> flips;               ///< sorted within a round
+  std::vector<EdgeIndex> flips_now;
+  std::vector<std::uint8_t> in_flips;         ///< by edge
+  std::vector<std::pair<EdgeIndex, Refusal>> refused;
+  std::vector<VertexIndex> changed;           ///< vertices whose faces changed, with repeats
+  std::vector<Eigen::Vector3d> ring;          ///< points of a ring, relative to a centre
+  std::vector<VertexIndex> around;            ///< vertices of the rings of an edge
+  std::vector<HalfedgeIndex> cycle;
+  AttributeMaps attributes;
+  std::vector<ForbiddenBall> forbidden;
+  int max_valence = 8;  ///< of a vertex that two others became
+};
+
+/// One call of remesh.
+struct RemeshState {
+  RemeshState(Drop& d, const RemeshOptions& o, Remesher::Scratch& s)
+      : drop(d), mesh(d.mesh()), connectivity(d.connectivity()), options(o), scratch(s) {}
+
+  Drop& drop;
+  Mesh& mesh;
+  Connectivity& connectivity;
+  const RemeshOptions& options;
+  Remesher::Scratch& scratch;
+  RemeshReport report;
+  bool has_contact = false;  ///< some vertex is colliding
+
+  Eigen::Vector3d point(VertexIndex v) const { return to_eigen(mesh.point(v)); }
+  bool colliding(VertexIndex v) const { return has_contact && is_colliding(drop.contact()[v]); }
+  bool on_line(VertexIndex v) const { return has_contact && drop.contact()[v] == Contact::line; }
+  VertexIndex apex(HalfedgeIndex h) const { return mesh.target(mesh.next(h)); }
+  Ring ring(VertexIndex v) const { return connectivity.ring(v); }
+
+  /// Outward area vector of the face left of h.
+  Eigen::Vector3d area_vector(HalfedgeIndex h) const;
+  /// Unit normal at a vertex, area weighted; zero if its faces have no area.
+  Eigen::Vector3d normal(VertexIndex v) const;
+  /// The face left of h lies on a solid: its vertices are colliding, and it faces into the solid.
+  bool is_wet_face(HalfedgeIndex h) const;
+  /// Both faces of the edge are wet.
+  bool inside_wetted_area(HalfedgeIndex h) const;
+  /// One face is wet, the other is not.
+  bool is_contact_line(HalfedgeIndex h) const;
+  /// Squared length as the band sees it: weighted inside the wetted area.
+  double squared_length(HalfedgeIndex h) const;
+  bool is_long(double squared_length) const;
+  bool is_short(double squared_length) const { return squared_length < options.band.edge_min * options.band.edge_min; }
+  bool is_forbidden(const Eigen::Vector3d& p) const;
+
+  /// Angle between the normals of the edge's faces exceeds feature_angle.
+  bool is_feature(HalfedgeIndex h) const;
+  /// 0 smooth, 1 on a sharp edge, 2 a corner.
+  int feature_rank(VertexIndex v) const;
+
+  /// Queues an edge for whatever its length or weight asks.
+  void queue(EdgeIndex e);
+  void queue_flip(EdgeIndex e);
+  void queue_ring(VertexIndex v);  ///< its spokes for everything, its rim for flips
+  /// Brings connectivity up to date for a vertex, and its contact state in line with its neighbours.
+  void update(VertexIndex v);
+  void update_contact(VertexIndex v);
+};
+
+/// Edges flip below this cot a + cot b: below zero, so that cocircular quadrangles rest.
+constexpr double negative_weight = -1e-4;
+
+/// (cot a + cot b) of the angles opposite to the edge: twice its weight.
+double cotangent_sum(const RemeshState& state, HalfedgeIndex h);
+
+/// Fills the queues with what is out of the band or has a negative weight, and marks poor quality.
+void scan(RemeshState& state);
+/// Marks anew the vertices that changed, and those of edges left out of the band.
+void mark_poor_quality(RemeshState& state);
+
+Refusal try_split(RemeshState& state, HalfedgeIndex h);
+Refusal try_collapse(RemeshState& state, HalfedgeIndex h);
+Refusal try_flip(RemeshState& state, HalfedgeIndex h);
+/// Cuts at a 3-cycle through the edge that is no face, if there is one (Section 5.2).
+Refusal try_cut(RemeshState& state, HalfedgeIndex h);
+/// Moves every vertex `factor` of the way to its ring's centroid, in the plane that keeps the volume.
+void smooth_tangentially(RemeshState& state, double factor);
+
+/// Remesher::remesh with the given working arrays, keeping out of scratch.forbidden.
+RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOptions& options);
+/// Rounds of split, collapse and flip over the queues that scan filled.
+void run_passes(RemeshState& state);
+
+}  // namespace meniscus

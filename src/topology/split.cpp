@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/topology/split.h"
+
+#include "attribute_maps.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <numeric>
+
+namespace meniscus {
+namespace {
+
+/// The component of each vertex, numbered in the order of smallest vertex index; none for vertices
+/// that have no faces.
+struct Labels {
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  std::vector<std::uint32_t> of_vertex;
+  std::uint32_t count = 0;
+};
+
+Labels label_components(const Mesh& mesh) {
+  Labels labels;
+  labels.of_vertex.assign(mesh.num_vertices(), Labels::none);
+  std::vector<VertexIndex> stack;
+  for (const auto seed : mesh.vertices()) {
+    if (mesh.is_isolated(seed) || labels.of_vertex[seed] != Labels::none) continue;
+    const auto label = labels.count++;
+    labels.of_vertex[seed] = label;
+    stack.push_back(seed);
+    while (!stack.empty()) {
+      const auto v = stack.back();
+      stack.pop_back();
+      for (const auto w : CGAL::vertices_around_target(mesh.halfedge(v), mesh))
+        if (labels.of_vertex[w] == Labels::none) {
+          labels.of_vertex[w] = label;
+          stack.push_back(w);
+        }
+    }
+  }
+  return labels;
+}
+
+std::array<VertexIndex, 3> corners(const Mesh& mesh, FaceIndex f) {
+  const auto h = mesh.halfedge(f);
+  return {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))};
+}
+
+/// The vertices and faces of each component, in index order.
+struct Component {
+  std::vector<VertexIndex> vertices;
+  std::vector<FaceIndex> faces;
+};
+
+std::vector<Component> components_of(const Mesh& mesh, const Labels& labels) {
+  std::vector<Component> components(labels.count);
+  for (const auto v : mesh.vertices())
+    if (labels.of_vertex[v] != Labels::none) components[labels.of_vertex[v]].vertices.push_back(v);
+  for (const auto f : mesh.faces()) components[labels.of_vertex[mesh.target(mesh.halfedge(f))]].faces.push_back(f);
+  return components;
+}
+
+Mesh extract(const Mesh& mesh, const Component& component) {
+  Mesh piece;
+  piece.reserve(static_cast<Mesh::size_type>(component.vertices.size()),
+                static_cast<Mesh::size_type>(3 * component.faces.size() / 2),
+                static_cast<Mesh::size_type>(component.faces.size()));
+  std::vector<AttributeSource> sources;
+  for (const auto v : component.vertices) {
+    piece.add_vertex(mesh.point(v));
+    sources.push_back(same_as(v));
+  }
+  const auto number = [&](VertexIndex v) {
+    const auto it = std::lower_bound(component.vertices.begin(), component.vertices.end(), v);
+    return VertexIndex(static_cast<Mesh::size_type>(it - component.vertices.begin()));
+  };
+  for (const auto f : component.faces) {
+    std::vector<VertexIndex> face;
+    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) face.push_back(number(v));
+    piece.add_face(face);
+  }
+  gather_attributes(mesh, piece, sources);
+  return piece;
+}
+
+double volume_of(const Mesh& mesh, const Component& component) {
+  const Eigen::Vector3d origin = to_eigen(mesh.point(component.vertices.front()));
+  double six = 0;
+  for (const auto f : component.faces) {
+    const auto [a, b, c] = corners(mesh, f);
+    const Eigen::Vector3d p = to_eigen(mesh.point(b)) - origin, q = to_eigen(mesh.point(c)) - origin;
+    six += (to_eigen(mesh.point(a)) - origin).dot(p.cross(q));
+  }
+  return six / 6;
+}
+
+/// Adds `lost` to the target volumes: evenly, but at most 5 % of a piece's own, the rest by volume.
+void share(double lost, std::vector<Drop>& pieces) {
+  constexpr double most = 0.05;
+  const double even = lost / static_cast<double>(pieces.size());
+  double rest = lost, open_volume = 0, all_volume = 0;
+  std::vector<bool> is_full(pieces.size());
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const double volume = pieces[k].target_volume();
+    const double delta = std::clamp(even, -most * volume, most * volume);
+    is_full[k] = delta != even;
+    pieces[k].set_target_volume(volume + delta);
+    rest -= delta;
+    all_volume += volume;
+    if (!is_full[k]) open_volume += volume;
+  }
+  const bool none_open = open_volume == 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    if (none_open || !is_full[k]) {
+      const double volume = pieces[k].volume();
+      pieces[k].set_target_volume(pieces[k].target_volume() + rest * volume / (none_open ? all_volume : open_volume));
+    }
+}
+
+}  // namespace
+
+std::vector<Mesh> connected_components(const Mesh& mesh) {
+  std::vector<Mesh> pieces;
+  for (const auto& component : components_of(mesh, label_components(mesh))) pieces.push_back(extract(mesh, component));
+  return pieces;
+}
+
+std::vector<Drop> split_components(Drop drop, SplitReport& report) {
+  report = {};
+  const Mesh& mesh = drop.mesh();
+  const auto components = components_of(mesh, label_components(mesh));
+  std::vector<const Component*> kept;
+  for (const auto& component : components) {
+    const double volume = volume_of(mesh, component);
+    if (!(volume > 0)) {
+      ++report.deleted_empty;
+    } else if (component.faces.size() == 4) {
+      ++report.deleted;
+      report.volume_deleted += volume;
+    } else {
+      kept.push_back(&component);
+    }
+  }
+  std::vector<Drop> pieces;
+  report.pieces = kept.size();
+  if (kept.size() == 1 && components.size() == 1) {
+    pieces.push_back(std::move(drop));
+    return pieces;
+  }
+  double enclosed = 0;
+  for (const auto* component : kept) {
+    pieces.emplace_back(extract(mesh, *component));
+    pieces.back().set_id(drop.id());
+    enclosed += pieces.back().target_volume();
+  }
+  report.volume_shared = drop.target_volume() - enclosed;
+  if (!pieces.empty()) share(report.volume_shared, pieces);
+  return pieces;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/simulation/step.h"
+
+#include "meniscus/geometry/shapes.h"
+#include "meniscus/simulation/oscillation.h"
+#include "meniscus/simulation/simulation.h"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+using Eigen::Vector3d;
+
+StepOptions free_drop_options() {
+  StepOptions options;
+  options.gravity.setZero();
+  options.liquid.viscosity = 0;
+  options.remesh = false;
+  return options;
+}
+
+Drop step(Drop drop, double time, double dt, const StepOptions& options, StepReport& report) {
+  Remesher remesher;
+  std::vector<Drop> pieces = step_drop(std::move(drop), {}, time, dt, options, remesher, report);
+  EXPECT_EQ(pieces.size(), 1u);
+  return std::move(pieces.front());
+}
+
+TEST(Step, CalibratedModeTwoRunsAtRayleighsFrequency) {
+  // sqrt(8 sigma/(rho R^3)) = 268.33 rad/s for R = 0.2 cm of water; 5 %, 2,562 vertices, dt = 1/5000.
+  const OscillationResult result = measure_oscillation(16, 0.05, 1.0 / 5000, 700, free_drop_options());
+  EXPECT_NEAR(result.angular_frequency / result.rayleigh, 1, 0.02);
+  EXPECT_NEAR(result.rayleigh, 268.33, 0.01);
+}
+
+TEST(Step, TheFrequencyHardlyDependsOnTheTimeStep) {
+  // Fixed gamma would change it by a factor of 2 from one of these steps to the next but one.
+  const double fine = measure_oscillation(8, 0.05, 1.0 / 8000, 1200, free_drop_options()).angular_frequency;
+  const double coarse = measure_oscillation(8, 0.05, 1.0 / 2000, 300, free_drop_options()).angular_frequency;
+  EXPECT_NEAR(coarse / fine, 1, 0.04);
+}
+
+TEST(Step, VolumeDoesNotDriftInTenThousandSteps) {
+  StepOptions options = free_drop_options();
+  Drop drop = oscillating_drop(16, 0.2, 0.05);
+  StepReport report;
+  for (int n = 1; n <= 10000; ++n) drop = step(std::move(drop), n / 5000.0, 1.0 / 5000, options, report);
+  EXPECT_LT(std::abs(drop.volume() / drop.target_volume() - 1), 1e-6);
+  EXPECT_LT(report.worst_volume_error, 1e-6);
+}
+
+TEST(Step, AWholeStepInFreeFallIsFreeFall) {
+  for (const Level level : {Level::paper, Level::calibrated}) {
+    StepOptions options;
+    options.level = level;
+    options.paper.damping_rate = 0;
+    const double dt = 1.0 / 960;
+    Drop drop(make_icosphere({0, 0, 0}, 0.2, 8));
+    StepReport report;
+    const int n = 100;
+    for (int k = 1; k <= n; ++k) drop = step(std::move(drop), k * dt, dt, options, report);
+    const double expected = -0.5 * 981 * dt * dt * n * (n + 1);
+    EXPECT_NEAR(drop.positions().row(2).mean(), expected, 2e-5 * std::abs(expected));
+    EXPECT_NEAR(drop.volume() / drop.target_volume(), 1, 1e-6);
+  }
+}
+
+TEST(Step, StaysFiniteAndSoundAtAnyTimeStep) {
+  for (const Level level : {Level::paper, Level::calibrated})
+    for (const double rate : {15.0, 60.0, 240.0, 960.0}) {
+      StepOptions options = free_drop_options();
+      options.level = level;
+      options.remesh = true;
+      Drop drop = oscillating_drop(8, 0.2, 0.2);
+      StepReport report;
+      for (int n = 1; n <= 60; ++n) drop = step(std::move(drop), n / rate, 1 / rate, options, report);
+      EXPECT_NEAR(drop.volume() / drop.target_volume(), 1, 1e-3) << rate;
+      const double sphere_area = std::cbrt(36 * M_PI * std::pow(drop.target_volume(), 2));
+      drop.workspace().geometry.compute(std::as_const(drop).positions(), drop.connectivity());
+      EXPECT_LT(drop.workspace().geometry.area(), 1.05 * sphere_area) << rate;  // it has become round
+    }
+}
+
+Scene three_drops_on_a_plate() {
+  Scene scene = default_scene();
+  scene.solids.emplace_back();
+  scene.time_step = 1.0 / 960;
+  for (int k = 0; k < 3; ++k) {
+    DropSpec drop;
+    drop.center = Vector3d(0.6 * k, 0, 0.2 + 0.02 * k);
+    drop.velocity = Vector3d(0, 5 * k, -10);
+    scene.drops.push_back(drop);
+  }
+  return scene;
+}
+
+TEST(Simulation, SameBitsWithOneThreadAndTwo) {
+  const auto run = [](std::size_t threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    Simulation simulation(three_drops_on_a_plate());
+    for (int n = 0; n < 100; ++n) simulation.step();
+    return simulation;
+  };
+  const Simulation one = run(1), two = run(2);
+  ASSERT_EQ(one.drops().size(), two.drops().size());
+  for (std::size_t d = 0; d < one.drops().size(); ++d) {
+    ASSERT_EQ(one.drops()[d].num_rows(), two.drops()[d].num_rows());
+    EXPECT_EQ(one.drops()[d].positions(), two.drops()[d].positions());
+    EXPECT_EQ(one.drops()[d].velocities(), two.drops()[d].velocities());
+  }
+}
+
+TEST(Simulation, DropsOnAPlateKeepTheirVolumeAndComeToRest) {
+  Simulation simulation(three_drops_on_a_plate());
+  while (simulation.time() < 1) simulation.step();
+  for (const Drop& drop : simulation.drops()) {
+    EXPECT_NEAR(drop.volume() / drop.target_volume(), 1, 1e-6);
+    EXPECT_GE(drop.positions().row(2).minCoeff(), -1e-12);
+    EXPECT_LT(drop.velocities().colwise().norm().maxCoeff(), 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace meniscus

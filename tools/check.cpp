@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.h"
-#include "mesh_files.h"
 #include "meniscus/core/error.h"
+#include "mesh_files.h"
 #include "report.h"
 
 #include <algorithm>
@@ -16,7 +16,9 @@ struct CheckOptions {
 
 constexpr double degrees = 180 / 3.14159265358979323846;
 
-std::string count(std::size_t n, const char* one, const char* many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
+std::string count(std::size_t n, const char* one, const char* many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
 
 std::string ids(const char* what, const std::vector<std::size_t>& list) {
   return list.empty() ? std::string() : fmt::format("      {}: {}\n", what, fmt::join(list, " "));
@@ -80,13 +82,15 @@ int check(const CheckOptions& options) {
 
 void add_check(CLI::App& app, Run& run) {
   const auto options = std::make_shared<CheckOptions>();
-  CLI::App* verb = add_verb(app,
-                            {"check",
-                             "Is each mesh sound: closed, 2-manifold, outward, not self-intersecting, bounding a volume? "
-                             "Exit code 0: all are; 1: some are not; 3: some cannot be read.",
-                             {"meniscus check drop.ply", "meniscus check --json report.json frames/*.ply"}},
-                            options->common);
-  verb->add_option("FILE", options->files, "Meshes (.ply, .off, .obj, .stl; lengths in cm), or - for stdin")->required();
+  CLI::App* verb = add_verb(
+      app,
+      {"check",
+       "Say whether each mesh is sound: closed, 2-manifold, outward, not self-intersecting, bounding a volume. "
+       "Exit code 0: all are; 1: some are not; 3: some cannot be read.",
+       {"meniscus check drop.ply", "meniscus check --json report.json frames/*.ply"}},
+      options->common);
+  verb->add_option("FILE", options->files, "Meshes (.ply, .off, .obj, .stl; lengths in cm), or - for stdin")
+      ->required();
   add_format(*verb, options->common);
   verb->callback([=, &run] { run = [=] { return check(*options); }; });
 }

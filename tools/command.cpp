@@ -19,12 +19,27 @@ class ExamplesFirst : public CLI::Formatter {
       if (!example.empty()) examples += "  " + example + '\n';
     return examples + '\n' + CLI::Formatter::make_help(app, std::move(name), mode);
   }
+  std::string make_description(const CLI::App* app) const override {
+    return CLI::Formatter::make_description(app) + '\n';
+  }
 
  private:
   VerbText text_;
 };
 
+/// --help of the program itself: of each verb only its first sentence.
+class FirstSentences : public CLI::Formatter {
+ public:
+  FirstSentences() { column_width(12); }
+  std::string make_subcommand(const CLI::App* verb) const override {
+    const std::string what = verb->get_description();
+    return fmt::format("  {:10}{}\n", verb->get_name(), what.substr(0, what.find(". ")));
+  }
+};
+
 }  // namespace
+
+std::shared_ptr<CLI::FormatterBase> overview_formatter() { return std::make_shared<FirstSentences>(); }
 
 CLI::App* add_verb(CLI::App& app, const VerbText& text, CommonOptions& common) {
   CLI::App* verb = app.add_subcommand(text.name, text.what);
@@ -65,8 +80,7 @@ CLI::Option* add_positive(CLI::App& verb, const std::string& name, std::optional
           name,
           [name, unit, &value](const std::string& text) {
             value = parse_number(name, text);
-            if (!(*value > 0))
-              throw UsageError(fmt::format("{}: {} is not greater than zero ({})", name, text, unit));
+            if (!(*value > 0)) throw UsageError(fmt::format("{}: {} is not greater than zero ({})", name, text, unit));
           },
           what)
       ->type_name(unit);

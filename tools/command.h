@@ -40,6 +40,9 @@ struct VerbText {
   std::string examples[2];  ///< command lines
 };
 
+/// For the program's own --help: one line a verb.
+std::shared_ptr<CLI::FormatterBase> overview_formatter();
+
 /// Adds a verb with the common options. `examples` come first in its --help.
 CLI::App* add_verb(CLI::App& app, const VerbText& text, CommonOptions& common);
 

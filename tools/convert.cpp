@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.h"
-#include "mesh_files.h"
 #include "meniscus/core/error.h"
+#include "mesh_files.h"
 #include "report.h"
 
 namespace meniscus::tools {
@@ -30,13 +30,13 @@ int convert(const ConvertOptions& options) {
 
 void add_convert(CLI::App& app, Run& run) {
   const auto options = std::make_shared<ConvertOptions>();
-  CLI::App* verb = add_verb(app,
-                            {"convert",
-                             "Read a mesh in one format, write it in another. Nothing is repaired; attributes (velocity, "
-                             "drop, ...) and comments are kept where the format can hold them, which is PLY.",
-                             {"meniscus convert drop.off drop.ply",
-                              "cat drop.stl | meniscus convert --format stl - drop.obj"}},
-                            options->common);
+  CLI::App* verb =
+      add_verb(app,
+               {"convert",
+                "Read a mesh in one format, write it in another. Nothing is repaired; attributes (velocity, "
+                "drop, ...) and comments are kept where the format can hold them, which is PLY.",
+                {"meniscus convert drop.off drop.ply", "cat drop.stl | meniscus convert --format stl - drop.obj"}},
+               options->common);
   verb->add_option("IN", options->input, "Mesh (.ply, .off, .obj, .stl), or - for stdin")->required();
   verb->add_option("OUT", options->output, "Mesh to write, or - for stdout")->required();
   add_format(*verb, options->common);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.h"
-#include "mesh_files.h"
 #include "meniscus/core/error.h"
 #include "meniscus/operators/mean_curvature_flow.h"
 #include "meniscus/operators/volume_correction.h"
 #include "meniscus/topology/split.h"
+#include "mesh_files.h"
 #include "report.h"
 
 #include <algorithm>
@@ -88,10 +88,11 @@ void scatter(const Drop& drop, MeshData& data) {
   const auto rows = drop.mesh().property_map<VertexIndex, double>(attribute_map_name(row_name)).first;
   for (const auto v : drop.mesh().vertices()) {
     const auto row = static_cast<std::size_t>(rows[v]);
-    for (int k = 0; k < 3; ++k) data.points[row][static_cast<std::size_t>(k)] = drop.positions()(k, v);
+    const Eigen::Vector3d x = drop.positions().col(v.idx()), velocity = drop.velocities().col(v.idx());
+    for (int k = 0; k < 3; ++k) data.points[row][static_cast<std::size_t>(k)] = x[k];
     for (auto& attribute : data.attributes)
       for (int k = 0; k < 3; ++k)
-        if (attribute.name == std::string("v") + "xyz"[k]) attribute.values[row] = drop.velocities()(k, v);
+        if (attribute.name == std::string("v") + "xyz"[k]) attribute.values[row] = velocity[k];
   }
 }
 
@@ -124,13 +125,14 @@ int flow_file(const FlowOptions& options) {
 
 void add_flow(CLI::App& app, Run& run) {
   const auto options = std::make_shared<FlowOptions>();
-  CLI::App* verb = add_verb(app,
-                            {"flow",
-                             "Implicit mean curvature flow of a closed mesh: (M + gamma dt L) X_new = M X_old, steps times. "
-                             "A sphere shrinks as r^2 = r0^2 - 4 gamma t.",
-                             {"meniscus flow bumpy.ply -o smooth.ply --gamma 1 --dt 0.0001 --steps 10",
-                              "meniscus flow bumpy.ply -o smooth.ply --gamma 1 --dt 0.0001 --steps 10 --keep-volume"}},
-                            options->common);
+  CLI::App* verb =
+      add_verb(app,
+               {"flow",
+                "Implicit mean curvature flow of a closed mesh: (M + gamma dt L) X_new = M X_old, steps times. "
+                "A sphere shrinks as r^2 = r0^2 - 4 gamma t.",
+                {"meniscus flow bumpy.ply -o smooth.ply --gamma 1 --dt 0.0001 --steps 10",
+                 "meniscus flow bumpy.ply -o smooth.ply --gamma 1 --dt 0.0001 --steps 10 --keep-volume"}},
+               options->common);
   verb->add_option("IN", options->input, "Closed mesh (.ply, .off, .obj, .stl), or - for stdin")->required();
   add_output(*verb, options->output, "Mesh to write, or - for stdout")->type_name("OUT");
   add_positive(*verb, "--gamma", options->gamma, "cm^2/s", "Coefficient of the flow")->required();

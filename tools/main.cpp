@@ -6,7 +6,10 @@
 
 #include <oneapi/tbb/global_control.h>
 
-#include <cerrno>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <csignal>
 #include <iostream>
 #include <new>
@@ -51,16 +54,15 @@ std::string describe_extras(const CLI::App& app) {
 
 [[noreturn]] void refuse_first_word(const CLI::App& app, const std::string& word) {
   if (word[0] == '-')
-    throw UsageError(fmt::format("unknown option \"{}\"{}", word,
-                                 suggestion(word, {"--help", "--version"}, "meniscus --help")));
-  throw UsageError(
-      fmt::format("unknown verb \"{}\"{}", word, suggestion(word, verb_names(app), "meniscus --help")));
+    throw UsageError(
+        fmt::format("unknown option \"{}\"{}", word, suggestion(word, {"--help", "--version"}, "meniscus --help")));
+  throw UsageError(fmt::format("unknown verb \"{}\"{}", word, suggestion(word, verb_names(app), "meniscus --help")));
 }
 
 /// Reads the command line; throws UsageError. A request for help or the version is a CLI::Success.
 void parse(CLI::App& app, int argc, char** argv) {
-  if (argc < 2) throw UsageError("name a verb: " + fmt::format("{}", fmt::join(verb_names(app), ", ")) +
-                                 "; see meniscus --help");
+  if (argc < 2)
+    throw UsageError("name a verb: " + fmt::format("{}", fmt::join(verb_names(app), ", ")) + "; see meniscus --help");
   const std::string first = argv[1];
   const std::vector<std::string> verbs = verb_names(app);
   const bool is_verb = std::find(verbs.begin(), verbs.end(), first) != verbs.end();
@@ -71,7 +73,8 @@ void parse(CLI::App& app, int argc, char** argv) {
     throw;
   } catch (const CLI::ParseError& error) {
     const std::string extras = describe_extras(app);
-    throw UsageError(extras.empty() ? fmt::format("{}: {}; see meniscus {} --help", first, error.what(), first) : extras);
+    throw UsageError(extras.empty() ? fmt::format("{}: {}; see meniscus {} --help", first, error.what(), first)
+                                    : extras);
   }
   if (first != "merge" && first != "view")
     if (const std::string extras = describe_extras(app); !extras.empty()) throw UsageError(extras);
@@ -89,6 +92,7 @@ int run_command(int argc, char** argv) {
   Run run;
   CLI::App app("Drops of liquid as closed triangle meshes. Lengths in cm, time in s, angles in degrees.", "meniscus");
   app.set_version_flag("--version", "meniscus " + version());
+  app.formatter(overview_formatter());
   app.require_subcommand(1);
   add_check(app, run);
   add_convert(app, run);
@@ -99,9 +103,10 @@ int run_command(int argc, char** argv) {
   add_schema(app, run);
   add_bench(app, run);
   add_later_verbs(app, run);
-  app.footer("meniscus VERB --help tells more of a verb. Exit codes: 0 done; 1 check found defects; 2 usage or scene\n"
-             "error; 3 a file cannot be read or written; 4 the geometry was refused; 5 the numerics failed;\n"
-             "130 interrupted.");
+  app.footer(
+      "meniscus VERB --help tells more of a verb. Exit codes: 0 done; 1 check found defects; 2 usage or scene\n"
+      "error; 3 a file cannot be read or written; 4 the geometry was refused; 5 the numerics failed;\n"
+      "130 interrupted.");
   try {
     parse(app, argc, argv);
   } catch (const CLI::Success& success) {
@@ -112,7 +117,10 @@ int run_command(int argc, char** argv) {
 }
 
 /// The reader of our output has gone: nothing to say, and nobody to say it to.
-bool is_broken_pipe(int error) { return error == EPIPE && !std::cout; }
+bool is_reader_gone() {
+  pollfd out{STDOUT_FILENO, 0, 0};
+  return !std::cout && ::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
+}
 
 int fail(int code, const std::exception& error) {
   say_error(error.what());
@@ -130,8 +138,7 @@ int main(int argc, char** argv) {
   } catch (const UsageError& error) {
     return tools::fail(2, error);
   } catch (const FileError& error) {
-    const bool quiet = tools::is_broken_pipe(errno);
-    return quiet ? 3 : tools::fail(3, error);
+    return tools::is_reader_gone() ? 3 : tools::fail(3, error);
   } catch (const GeometryError& error) {
     return tools::fail(4, error);
   } catch (const NumericsError& error) {

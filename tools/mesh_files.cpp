@@ -36,8 +36,8 @@ void say_lost(const std::string& file, MeshFormat format, const MeshData& data, 
   if (format == MeshFormat::ply || data.attributes.empty()) return;
   std::string names;
   for (const auto& attribute : data.attributes) names += " " + attribute.name;
-  console.say(fmt::format("{}: {} holds no attributes, so these are left out:{}", shown_name(file),
-                          format_name(format), names));
+  console.say(fmt::format("{}: {} holds no attributes, so these are left out:{}", shown_name(file), format_name(format),
+                          names));
 }
 
 bool is_drops_own(const VertexAttribute& attribute) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "command.h"
+#include "meniscus/core/error.h"
 #include "meniscus/core/mesh_data.h"
 #include "meniscus/io/write_mesh.h"
 #include "meniscus/state/drop.h"

@@ -2,9 +2,9 @@
 #include "meniscus/topology/remesh.h"
 
 #include "command.h"
-#include "mesh_files.h"
 #include "meniscus/core/error.h"
 #include "meniscus/topology/remesh_isotropic.h"
+#include "mesh_files.h"
 #include "report.h"
 
 namespace meniscus::tools {
@@ -60,17 +60,20 @@ void add_counts(Report& report, const RemeshReport& remesh) {
                          {"near_intersection", refused.near_intersection}});
 }
 
-std::string describe(const RemeshReport& remesh) {
-  return fmt::format("{} splits, {} collapses, {} flips, {} cuts; {} edges left below the band, {} above", remesh.splits,
-                     remesh.collapses, remesh.flips, remesh.cuts, remesh.edges_below, remesh.edges_above);
+std::string describe(const RemeshReport& remesh, double volume_change) {
+  return fmt::format(
+      "{} splits, {} collapses, {} flips, {} cuts; {} edges left below the band, {} above; volume {:+.2g} %",
+      remesh.splits, remesh.collapses, remesh.flips, remesh.cuts, remesh.edges_below, remesh.edges_above,
+      100 * volume_change);
 }
 
 MeshData remesh_by_band(const MeshData& data, const RemeshVerbOptions& options, Report& report) {
   Drop drop = to_drop(data, options.input);
-  const RemeshReport result =
-      report.timed([&] { return naming(options.input, [&] { return remesh_to_band(drop, library_options(options)); }); });
+  const double volume = drop.volume();
+  const RemeshReport result = report.timed(
+      [&] { return naming(options.input, [&] { return remesh_to_band(drop, library_options(options)); }); });
   add_counts(report, result);
-  options.common.console().say(describe(result));
+  options.common.console().say(describe(result, drop.volume() / volume - 1));
   return to_output(drop.mesh(), data, result.cuts == 0);
 }
 
@@ -78,9 +81,8 @@ MeshData remesh_by_cgal(const MeshData& data, const RemeshVerbOptions& options, 
   const RemeshOptions remesh = library_options(options);
   const double target = (remesh.band.edge_min + remesh.band.edge_max) / 2;
   Mesh mesh = to_drop(data, options.input).mesh();
-  report.timed([&] {
-    naming(options.input, [&] { remesh_isotropic(mesh, target, remesh.max_passes, remesh.feature_angle); });
-  });
+  report.timed(
+      [&] { naming(options.input, [&] { remesh_isotropic(mesh, target, remesh.max_passes, remesh.feature_angle); }); });
   report.add("passes", remesh.max_passes);
   return to_output(mesh, data, true);
 }
@@ -92,8 +94,8 @@ int remesh_file(const RemeshVerbOptions& options) {
     const MeshData data = read_input(options.input, options.common);
     report.add_input(options.input, data);
     report.add("method", options.method);
-    const MeshData result = options.method == "band" ? remesh_by_band(data, options, report)
-                                                     : remesh_by_cgal(data, options, report);
+    const MeshData result =
+        options.method == "band" ? remesh_by_band(data, options, report) : remesh_by_cgal(data, options, report);
     report.add_output(options.output, result);
     write_output(options.output, result, options.common);
   });
@@ -103,13 +105,14 @@ int remesh_file(const RemeshVerbOptions& options) {
 
 void add_remesh(CLI::App& app, Run& run) {
   const auto options = std::make_shared<RemeshVerbOptions>();
-  CLI::App* verb = add_verb(app,
-                            {"remesh",
-                             "Split, collapse and flip edges until their lengths lie in a band. Velocity and other vertex "
-                             "attributes are carried over. The mesh must be closed.",
-                             {"meniscus remesh drop.ply -o even.ply --edge-min 0.04 --edge-max 0.12",
-                              "meniscus remesh box.off -o fine.off --edge 0.02 --features 40"}},
-                            options->common);
+  CLI::App* verb =
+      add_verb(app,
+               {"remesh",
+                "Split, collapse and flip edges until their lengths lie in a band. Velocity and other vertex "
+                "attributes are carried over. The mesh must be closed.",
+                {"meniscus remesh drop.ply -o even.ply --edge-min 0.04 --edge-max 0.12",
+                 "meniscus remesh box.off -o fine.off --edge 0.02 --features 40"}},
+               options->common);
   verb->add_option("IN", options->input, "Closed mesh (.ply, .off, .obj, .stl), or - for stdin")->required();
   add_output(*verb, options->output, "Mesh to write, or - for stdout")->type_name("OUT");
   add_positive(*verb, "--edge-min", options->edge_min, "cm", "Shortest edge, less than half of --edge-max");
@@ -119,7 +122,8 @@ void add_remesh(CLI::App& app, Run& run) {
       ->capture_default_str()
       ->type_name("METHOD")
       ->check(CLI::IsMember({"band", "isotropic"}));
-  add_positive(*verb, "--features", options->features, "DEGREES", "Keep edges whose faces turn by more (default: none)");
+  add_positive(*verb, "--features", options->features, "DEGREES",
+               "Keep edges whose faces turn by more (default: none)");
   verb->add_option("--passes", options->passes, "Rounds of split, collapse and flip")
       ->capture_default_str()
       ->type_name("N")

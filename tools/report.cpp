@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report.h"
 
-#include "mesh_files.h"
 #include "meniscus/core/error.h"
 #include "meniscus/io/write_file_atomically.h"
+#include "mesh_files.h"
 
 #include <iostream>
 
@@ -13,10 +13,8 @@ namespace {
 constexpr double degrees = 180 / 3.14159265358979323846;
 
 Json to_json(const Defect& defect) {
-  return {{"kind", name(defect.kind)},
-          {"message", defect.message},
-          {"faces", defect.faces},
-          {"vertices", defect.vertices}};
+  return {
+      {"kind", name(defect.kind)}, {"message", defect.message}, {"faces", defect.faces}, {"vertices", defect.vertices}};
 }
 
 }  // namespace
@@ -44,7 +42,8 @@ Json to_json(const std::string& file, const Inspection& i) {
 
 void write_stdout(const std::string& text) {
   std::cout.write(text.data(), static_cast<std::streamsize>(text.size())).flush();
-  if (!std::cout) throw FileError("<stdout>: cannot be written; check the space left and that the reader is still there");
+  if (!std::cout)
+    throw FileError("<stdout>: cannot be written; check the space left and that the reader is still there");
 }
 
 void write_report(const Json& report, const CommonOptions& common) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "command.h"
+#include "meniscus/core/error.h"
 #include "meniscus/core/mesh_data.h"
 #include "meniscus/geometry/inspect.h"
 

@@ -2,8 +2,8 @@
 #include "meniscus/topology/split.h"
 
 #include "command.h"
-#include "mesh_files.h"
 #include "meniscus/core/error.h"
+#include "mesh_files.h"
 #include "report.h"
 
 namespace meniscus::tools {
@@ -20,8 +20,8 @@ constexpr const char* placeholder = "{}";
 void check_pattern(const SplitOptions& options) {
   const std::size_t first = options.output.find(placeholder);
   if (first == std::string::npos || options.output.find(placeholder, first + 1) != std::string::npos)
-    throw UsageError(fmt::format("--output: \"{}\" must hold {{}} once, where the piece's number goes, as in out_{{}}.ply",
-                                 options.output));
+    throw UsageError(fmt::format(
+        "--output: \"{}\" must hold {{}} once, where the piece's number goes, as in out_{{}}.ply", options.output));
   format_of(options.output);
 }
 
@@ -64,13 +64,13 @@ int split(const SplitOptions& options) {
 
 void add_split(CLI::App& app, Run& run) {
   const auto options = std::make_shared<SplitOptions>();
-  CLI::App* verb = add_verb(app,
-                            {"split",
-                             "Write each connected component of a closed mesh to a file of its own, after cutting and "
-                             "closing thin necks if asked to.",
-                             {"meniscus split spray.ply -o 'drop_{}.ply'",
-                              "meniscus split dumbbell.off -o 'half_{}.off' --neck 0.05"}},
-                            options->common);
+  CLI::App* verb = add_verb(
+      app,
+      {"split",
+       "Write each connected component of a closed mesh to a file of its own, after cutting and "
+       "closing thin necks if asked to.",
+       {"meniscus split spray.ply -o 'drop_{}.ply'", "meniscus split dumbbell.off -o 'half_{}.off' --neck 0.05"}},
+      options->common);
   verb->add_option("IN", options->input, "Closed mesh (.ply, .off, .obj, .stl), or - for stdin")->required();
   add_output(*verb, options->output, "Meshes to write; {} becomes 0, 1, ... in the order of first vertices")
       ->type_name("'OUT_{}.ply'");

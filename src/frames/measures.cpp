@@ -3,8 +3,8 @@
 
 #include "meniscus/state/contact_line.h"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>

@@ -193,7 +193,7 @@ std::vector<int> volume_signs(const MeshData& data, const SoupTopology& topology
   };
   std::vector<Sum> sums(topology.num_components);
   std::size_t t = 0;  // all triangles are measurable, so that they are visited one by one
-  for_each_scaled_triangle(data, [&](const Corners& p) {
+  for_each_triangle_scaled_by_axis(data, [&](const Corners& p) {
     Sum& sum = sums[topology.component[t++]];
     if (sum.is_new) sum.origin = p[0], sum.is_new = false;
     const Eigen::Vector3d a = p[0] - sum.origin, b = p[1] - sum.origin, c = p[2] - sum.origin;

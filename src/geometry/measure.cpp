@@ -59,14 +59,15 @@ double area_of(const Triangles& source) {
 /// Volume, its first moment about `origin` and the mean corner relative to it, scaled.
 struct SolidSums {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero(), corner = Eigen::Vector3d::Zero();
-  double volume = 0, unit = 1;
+  Eigen::Vector3d unit = Eigen::Vector3d::Ones();
+  double volume = 0;
   std::size_t count = 0;
 };
 
 template <class Triangles>
 SolidSums solid_sums(const Triangles& source) {
   SolidSums sums;
-  sums.unit = for_each_scaled_triangle(source, [&](const Corners& p) {
+  sums.unit = for_each_triangle_scaled_by_axis(source, [&](const Corners& p) {
     if (sums.count++ == 0) sums.origin = p[0];
     const Eigen::Vector3d a = p[0] - sums.origin, b = p[1] - sums.origin, c = p[2] - sums.origin;
     const double volume = a.dot(b.cross(c)) / 6;
@@ -80,7 +81,7 @@ SolidSums solid_sums(const Triangles& source) {
 template <class Triangles>
 double volume_of(const Triangles& source) {
   const SolidSums sums = solid_sums(source);
-  return sums.volume * sums.unit * sums.unit * sums.unit;
+  return std::ldexp(sums.volume, std::ilogb(sums.unit.x()) + std::ilogb(sums.unit.y()) + std::ilogb(sums.unit.z()));
 }
 
 template <class Triangles>
@@ -89,7 +90,7 @@ Eigen::Vector3d centroid_of(const Triangles& source) {
   if (sums.count == 0) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d offset =
       sums.volume != 0 ? Eigen::Vector3d(sums.moment / sums.volume) : Eigen::Vector3d(sums.corner / double(sums.count));
-  return (sums.origin + offset) * sums.unit;
+  return (sums.origin + offset).cwiseProduct(sums.unit);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "meniscus/core/mesh_data.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -36,32 +37,50 @@ inline Eigen::Vector3d point(const MeshData& data, std::uint32_t v) {
   return Eigen::Vector3d::Map(data.points[v].data());
 }
 
-/// Calls visit(corners / u) for every measurable triangle and returns u, a power of two.
-template <class Visit>
-double for_each_scaled_triangle(const MeshData& data, Visit visit) {
-  double largest = 0;
+/// The largest size of each coordinate.
+inline Eigen::Array3d largest_coordinates(const MeshData& data) {
+  Eigen::Array3d largest = Eigen::Array3d::Zero();
   for (const auto& p : data.points)
-    if (is_finite(p))
-      for (const double x : p) largest = std::max(largest, std::abs(x));
-  const double unit = unit_for(largest);
+    if (is_finite(p)) largest = largest.max(Eigen::Array3d::Map(p.data()).abs());
+  return largest;
+}
+inline Eigen::Array3d largest_coordinates(const Mesh& mesh) {
+  Eigen::Array3d largest = Eigen::Array3d::Zero();
+  for (const auto v : mesh.vertices()) largest = largest.max(to_eigen(mesh.point(v)).array().abs());
+  return largest;
+}
+
+/// Calls visit(corners, each coordinate divided by its unit) for every measurable triangle.
+template <class Visit>
+void for_each_triangle(const MeshData& data, const Eigen::Vector3d& unit, Visit visit) {
   for (const auto& t : data.triangles)
     if (is_measurable(data, t))
-      visit(Corners{Eigen::Vector3d(point(data, t[0]) / unit), Eigen::Vector3d(point(data, t[1]) / unit),
-                    Eigen::Vector3d(point(data, t[2]) / unit)});
+      visit(Corners{Eigen::Vector3d(point(data, t[0]).cwiseQuotient(unit)),
+                    Eigen::Vector3d(point(data, t[1]).cwiseQuotient(unit)),
+                    Eigen::Vector3d(point(data, t[2]).cwiseQuotient(unit))});
+}
+template <class Visit>
+void for_each_triangle(const Mesh& mesh, const Eigen::Vector3d& unit, Visit visit) {
+  const auto at = [&](VertexIndex v) -> Eigen::Vector3d { return to_eigen(mesh.point(v)).cwiseQuotient(unit); };
+  for (const auto f : mesh.faces()) {
+    const auto h = mesh.halfedge(f);
+    visit(Corners{at(mesh.source(h)), at(mesh.target(h)), at(mesh.target(mesh.next(h)))});
+  }
+}
+
+/// for_each_triangle with one unit for all axes; returns it.
+template <class Triangles, class Visit>
+double for_each_scaled_triangle(const Triangles& source, Visit visit) {
+  const double unit = unit_for(largest_coordinates(source).maxCoeff());
+  for_each_triangle(source, Eigen::Vector3d::Constant(unit), visit);
   return unit;
 }
 
-template <class Visit>
-double for_each_scaled_triangle(const Mesh& mesh, Visit visit) {
-  double largest = 0;
-  for (const auto v : mesh.vertices()) largest = std::max(largest, to_eigen(mesh.point(v)).cwiseAbs().maxCoeff());
-  const double unit = unit_for(largest);
-  for (const auto f : mesh.faces()) {
-    const auto h = mesh.halfedge(f);
-    visit(Corners{Eigen::Vector3d(to_eigen(mesh.point(mesh.source(h))) / unit),
-                  Eigen::Vector3d(to_eigen(mesh.point(mesh.target(h))) / unit),
-                  Eigen::Vector3d(to_eigen(mesh.point(mesh.target(mesh.next(h)))) / unit)});
-  }
+/// for_each_triangle with a unit for each axis, so that even the volume of a needle does not underflow.
+template <class Triangles, class Visit>
+Eigen::Vector3d for_each_triangle_scaled_by_axis(const Triangles& source, Visit visit) {
+  const Eigen::Vector3d unit = largest_coordinates(source).unaryExpr(&unit_for);
+  for_each_triangle(source, unit, visit);
   return unit;
 }
 

@@ -48,7 +48,7 @@ Character characterize(const System& system) {
 SolverMethod choose_method(const System& system, const Progress& progress, bool pattern_changed) {
   const Character character = characterize(system);
   const auto n = static_cast<double>(system.connectivity.num_rows());
-  const bool irregular = character.roughness > 0.01;
+  const bool irregular = character.roughness > 0.005;
   // Iterations: proportional to the digits to gain and to the square root of the condition number,
   // which the size of the mesh bounds. Rows that stick out cost the diagonal some more.
   const double digits = 0.5 * std::log(total(progress.residual) / progress.threshold);
@@ -56,7 +56,7 @@ SolverMethod choose_method(const System& system, const Progress& progress, bool 
   const double smooth_part = digits / std::sqrt(1 / (0.16 * condition) + 1 / (0.09 * n));
   // Costs in nanoseconds a row. While the pattern stands, its analysis is paid once for many steps.
   const double jacobi = 4.2 * (smooth_part + 6 * std::log(character.spread));
-  const double incomplete = 24 + (pattern_changed ? 50 : 0) + 10 * (smooth_part / 2.8 + 1.5);
+  const double incomplete = 24 + (pattern_changed ? 50 + n / 1500 : 0) + 10 * (smooth_part / 2.8 + 1.5);
   const double complete = 13 * std::sqrt(n) + (pattern_changed ? 480 : 0);
   // On regular meshes right-hand sides are smooth: the diagonal serves as well as anything, and
   // iterations are far fewer than foreseen.

@@ -19,20 +19,35 @@ Vector3d measured_angle_kick(const ContactLineVertex& line, double receding, dou
 }
 
 /// The energy gradient that drives the line (cm, positive outward), zero between the two angles.
-double unbalanced_length(const ContactLineVertex& line, const Solid& solid) {
+/// `pressure` is the drop's, over sigma (1/cm): it pushes on the line vertex's share of the surface.
+double unbalanced_length(const ContactLineVertex& line, const Solid& solid, double pressure) {
+  const double cosine = line.energy_cosine - pressure * line.volume_gradient / line.length;
   const double cos_advancing = std::cos(solid.advancing_angle), cos_receding = std::cos(solid.receding_angle);
-  if (line.energy_cosine < cos_advancing) return line.length * (cos_advancing - line.energy_cosine);
-  if (line.energy_cosine > cos_receding) return line.length * (cos_receding - line.energy_cosine);
+  if (cosine < cos_advancing) return line.length * (cos_advancing - cosine);
+  if (cosine > cos_receding) return line.length * (cos_receding - cosine);
   return 0;
 }
 
-/// The change of the line vertex's velocity by virtual work: it sticks, stops or is pushed.
+/// The mean pressure over sigma that the volume correction put against the last flow: what the
+/// flow took off the volume, by the free area and c dt^2.
+double pressure_over_tension(Drop& drop, const SurfaceGeometry& geometry, double dt, double c) {
+  double flux = 0, area = 0;
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
+    if (drop.contact()[v] != Contact::free) continue;
+    flux -= drop.displacements().col(v).dot(geometry.area_vector(v));
+    area += geometry.area_vector(v).norm();
+  }
+  return area > 0 && c * dt > 0 ? flux / (area * c * dt * dt) : 0;
+}
+
+/// The change of the line vertex's velocity by virtual work: it sticks, or it is pushed against friction,
+/// (M + dt xi l + dt^2 c L_ii) v_new = M v + dt c f along the line's normal.
 Vector3d virtual_work_kick(const ContactLineVertex& line, double force, const Vector3d& slip, double mass, double dt,
-                           double c) {
+                           const ContactAngleOptions& options) {
   if (force == 0) return -slip;
-  const double along = slip.dot(line.outward);
-  const double stopped = along * force < 0 ? -along : 0;  // moving against its force: it stops first
-  return (stopped + dt * c * force / (mass + c * dt * dt * line.stiffness)) * line.outward;
+  const double c = options.tension_over_mass, along = slip.dot(line.outward);
+  const double resistance = mass + dt * options.line_friction_over_mass * line.length + dt * dt * c * line.stiffness;
+  return ((mass * along + dt * c * force) / resistance - along) * line.outward;
 }
 
 }  // namespace
@@ -44,6 +59,9 @@ ContactAngleReport apply_contact_angle(Drop& drop, const std::vector<Solid>& sol
   const auto n = static_cast<std::uint32_t>(drop.num_rows());
   std::vector<Vector3d>& kick = drop.workspace().vectors;  // all from the same state, so that order does not matter
   kick.resize(n);
+  const double pressure = options.force == ContactForce::virtual_work
+                              ? pressure_over_tension(drop, geometry, dt, options.tension_over_mass)
+                              : 0;
   for (std::uint32_t v = 0; v < n; ++v) {
     if (contact[v] != Contact::line) continue;
     kick[v].setZero();
@@ -56,9 +74,9 @@ ContactAngleReport apply_contact_angle(Drop& drop, const std::vector<Solid>& sol
       report.advancing += line->angle > solid.advancing_angle;
       report.receding += line->angle < solid.receding_angle;
     } else {
-      const double force = unbalanced_length(*line, solid);
+      const double force = unbalanced_length(*line, solid, pressure);
       const Vector3d slip = drop.velocities().col(v) - solid.velocity(time);
-      kick[v] = virtual_work_kick(*line, force, slip, geometry.lumped_area(v), dt, options.tension_over_mass);
+      kick[v] = virtual_work_kick(*line, force, slip, geometry.lumped_area(v), dt, options);
       report.advancing += force > 0;
       report.receding += force < 0;
     }

@@ -6,6 +6,7 @@
 #include "meniscus/geometry/rigid_motion.h"
 #include "meniscus/operators/collision_constraint.h"
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +15,9 @@ namespace meniscus {
 namespace {
 
 using Eigen::Vector3d;
+
+/// A direction counts as held by contact from this share of the strongest on.
+constexpr double held_share = 0.1;
 
 /// The largest L_ii / M_ii (1/cm^2) of a matrix M + s L, times s.
 double stiffest_row(const RingMatrix& matrix, const SurfaceGeometry& geometry) {
@@ -52,6 +56,31 @@ DampingReport viscous_change(Drop& drop, const SurfaceGeometry& geometry, const 
   return report;
 }
 
+/// The rigid motion that contact leaves a drop: none along the normals of the solids that it lies on,
+/// and only the rotation about them.
+RigidMotion free_rigid_motion(const Drop& drop, const SurfaceGeometry& geometry) {
+  RigidMotion rigid = fit_rigid_motion(drop.positions(), drop.velocities(), geometry);
+  Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+    if (is_colliding(drop.contact()[i])) {
+      const Vector3d n = drop.contact_normals().col(i);
+      normals += geometry.lumped_area(i) * n * n.transpose();
+    }
+  if (normals.isZero(0)) return rigid;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(normals);
+  const double largest = axes.eigenvalues().maxCoeff();
+  int held = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d axis = axes.eigenvectors().col(k);
+    if (axes.eigenvalues()[k] < held_share * largest) continue;
+    rigid.translation -= rigid.translation.dot(axis) * axis;
+    ++held;
+  }
+  const Vector3d normal = axes.eigenvectors().col(2);
+  rigid.rotation = held == 1 ? Vector3d(rigid.rotation.dot(normal) * normal) : Vector3d(Vector3d::Zero());
+  return rigid;
+}
+
 /// The paper's extra viscosity: vertices of poor quality take on part of their neighbours' mean.
 std::size_t smooth_poor_vertices(Drop& drop, Columns& v, double share) {
   const std::uint8_t* poor = drop.poor_quality();
@@ -78,7 +107,7 @@ std::size_t smooth_poor_vertices(Drop& drop, Columns& v, double share) {
 DampingReport apply_damping(Drop& drop, const SurfaceGeometry& geometry, double dt, const DampingOptions& options) {
   DampingReport report;
   Columns v = drop.velocities();
-  const RigidMotion rigid = options.keep_rigid_motion ? fit_rigid_motion(drop.positions(), v, geometry) : RigidMotion{};
+  const RigidMotion rigid = options.keep_rigid_motion ? free_rigid_motion(drop, geometry) : RigidMotion{};
   const bool viscous = options.viscosity_coefficient * dt > 0;
   if (viscous) {
     if (options.keep_rigid_motion)
@@ -99,7 +128,9 @@ DampingReport apply_damping(Drop& drop, const SurfaceGeometry& geometry, double 
       const Vector3d normal = geometry.normal(i);
       u_new -= options.tangential_damping * (u_new - u_new.dot(normal) * normal);
     }
-    v.col(i) += constrain_to_solid(drop, i, u_new - u);
+    const Vector3d change = constrain_to_solid(drop, i, u_new - u);
+    v.col(i) += change;
+    if (options.correct_positions) drop.positions().col(i) += change * dt;
   }
   if (options.poor_quality_smoothing > 0)
     report.smoothed = smooth_poor_vertices(drop, v, options.poor_quality_smoothing);

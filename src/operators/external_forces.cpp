@@ -98,6 +98,7 @@ class Collider {
       SolidContact contact{0, Vector3d::Zero(), Vector3d::Zero()};
       for (const std::size_t s : near_) {
         if (colliding && static_cast<std::int32_t>(s) == touched) continue;
+        if (!solids_[s].is_near(Eigen::AlignedBox3d(Vector3d(x_.col(i))), time_, 0)) continue;
         const SolidContact candidate = solids_[s].query(x_.col(i), time_);
         if (candidate.distance <= 0 && (deepest == solids_.size() || candidate.distance < contact.distance)) {
           deepest = s;
@@ -174,7 +175,9 @@ void find_contact(Drop& drop, const std::vector<Solid>& solids, double time, dou
     drop.contact_solid()[i] = -1;
     double nearest = tolerance;
     for (std::size_t s = 0; s < solids.size(); ++s) {
-      const SolidContact candidate = solids[s].query(drop.positions().col(i), time);
+      const Vector3d x = drop.positions().col(i);
+      if (!solids[s].is_near(Eigen::AlignedBox3d(x), time, tolerance)) continue;
+      const SolidContact candidate = solids[s].query(x, time);
       if (candidate.distance > nearest) continue;
       nearest = candidate.distance;
       contact[i] = Contact::wetted;

@@ -71,8 +71,9 @@ void neighbourhood_mean_of_flow(Drop& drop, const SurfaceGeometry& geometry, dou
   const SolveReport report =
       work.solver.solve(drop.connectivity(), work.matrix, work.rhs.data(), work.solution.data(), nullptr, true, solver);
   if (!report.converged)
-    throw NumericsError(fmt::format("drop {}: the local volume correction did not converge in {} iterations (residual {:.1e})",
-                                    drop.id(), report.iterations, report.relative_residual));
+    throw NumericsError(
+        fmt::format("drop {}: the local volume correction did not converge in {} iterations (residual {:.1e})",
+                    drop.id(), report.iterations, report.relative_residual));
   for (std::size_t i = 0; i < n; ++i) work.more_scalars[i] = work.solution[i][0] / dt;
 }
 
@@ -99,14 +100,17 @@ void correct_globally(Drop& drop, const SurfaceGeometry& geometry, double dt, do
   double area = 0;  // dV/dd
   for (std::uint32_t i = 0; i < n; ++i)
     if (takes_part(drop, i)) area += geometry.area_vector(i).dot(geometry.normal(i)) / 3;
+  double flowed = 0;  // the flow's own offset, which the limit does not count
+  for (std::uint32_t i = 0; i < n; ++i)
+    if (takes_part(drop, i)) flowed += drop.displacements().col(i).dot(geometry.area_vector(i)) / 3;
   const double target = drop.target_volume();
   double error = drop.volume() - target;
   report.relative_error_before = report.relative_error = error / target;
   if (!(area > 0)) return;
-  for (int round = 0; round < max_rounds && std::abs(error) > volume_tolerance * target && !report.limited;
-       ++round) {
+  const double expected = -flowed / area;
+  for (int round = 0; round < max_rounds && std::abs(error) > volume_tolerance * target && !report.limited; ++round) {
     double d = -error / area;
-    const double total = std::clamp(report.offset + d, -limit, limit);
+    const double total = std::clamp(report.offset + d, expected - limit, expected + limit);
     report.limited = total != report.offset + d;
     d = total - report.offset;
     report.offset = total;

@@ -6,8 +6,8 @@
 #include "meniscus/operators/external_forces.h"
 #include "meniscus/simulation/simulation.h"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 
@@ -92,11 +92,18 @@ Mesh make_shape(const Scene& scene, const DropSpec& spec) {
   const double edge_length = 0.5 * (scene.mesh.edge_min + scene.mesh.edge_max);
   Mesh mesh;
   switch (spec.shape) {
-    case DropShape::sphere: return make_sphere(spec.center, spec.radius, edge_length);
-    case DropShape::cap: return make_cap_on_plane(scene, spec, edge_length);
-    case DropShape::ellipsoid: mesh = make_ellipsoid(spec.center, spec.semi_axes, edge_length); break;
-    case DropShape::box: mesh = make_box(spec.center, spec.size, edge_length); break;
-    case DropShape::mesh: throw UsageError("a mesh file is no shape");  // make_drops reads it
+    case DropShape::sphere:
+      return make_sphere(spec.center, spec.radius, edge_length);
+    case DropShape::cap:
+      return make_cap_on_plane(scene, spec, edge_length);
+    case DropShape::ellipsoid:
+      mesh = make_ellipsoid(spec.center, spec.semi_axes, edge_length);
+      break;
+    case DropShape::box:
+      mesh = make_box(spec.center, spec.size, edge_length);
+      break;
+    case DropShape::mesh:
+      throw UsageError("a mesh file is no shape");  // make_drops reads it
   }
   rotate(mesh, spec.rotation, spec.center);
   return mesh;
@@ -118,7 +125,56 @@ std::vector<Drop> make_drops_of(const Scene& scene, const DropSpec& spec) {
   return drops;
 }
 
+Solid make_shape(const Scene& scene, const SolidSpec& spec) {
+  switch (spec.shape) {
+    case SolidShape::plane:
+      return Solid::plane(spec.point, spec.normal);
+    case SolidShape::sphere:
+      return Solid::sphere(spec.center, spec.radius);
+    case SolidShape::box:
+      return Solid::box(spec.center, spec.size, rotation_matrix(spec.rotation));
+    case SolidShape::cylinder:
+      return Solid::cylinder(spec.from, spec.to, spec.radius);
+    case SolidShape::capsule:
+      return Solid::capsule(spec.from, spec.to, spec.radius);
+    case SolidShape::mesh:
+      break;
+  }
+  return Solid::mesh(read_placed_mesh(scene, spec));
+}
+
+/// What to call solid s in a message.
+std::string label(const Scene& scene, std::size_t s) {
+  const SolidSpec& spec = scene.solids[s];
+  const std::string name = spec.name.empty() ? std::string() : fmt::format(" \"{}\"", spec.name);
+  const std::string file =
+      spec.shape == SolidShape::mesh ? fmt::format(" ({})", scene.locate(spec.file).string()) : std::string();
+  return fmt::format("solid {}{}{}", s, name, file);
+}
+
 }  // namespace
+
+std::vector<Solid> make_solids(const Scene& scene) {
+  std::vector<Solid> solids;
+  for (std::size_t s = 0; s < scene.solids.size(); ++s) {
+    const SolidSpec& spec = scene.solids[s];
+    try {
+      Solid solid = make_shape(scene, spec);
+      solid.name = spec.name;
+      solid.advancing_angle = spec.advancing_angle;
+      solid.receding_angle = spec.receding_angle;
+      solid.friction_speed = spec.friction_speed;
+      solid.set_velocity(spec.velocity);
+      std::vector<Solid::Key> keys;
+      for (const PositionKey& key : spec.keys) keys.push_back({key.time, key.position});
+      if (!keys.empty()) solid.set_keys(std::move(keys));
+      solids.push_back(std::move(solid));
+    } catch (const GeometryError& error) {
+      throw GeometryError(fmt::format("{}: {}", label(scene, s), error.what()), error.faces(), error.vertices());
+    }
+  }
+  return solids;
+}
 
 std::vector<Drop> make_drops(const Scene& scene, const std::vector<Solid>& solids) {
   std::vector<Drop> drops;
@@ -132,7 +188,8 @@ std::vector<Drop> make_drops(const Scene& scene, const std::vector<Solid>& solid
         drops.push_back(std::move(drop));
       }
     } catch (const GeometryError& error) {
-      const std::string what = spec.shape == DropShape::mesh ? scene.locate(spec.file).string() : shape_name(spec.shape);
+      const std::string what =
+          spec.shape == DropShape::mesh ? scene.locate(spec.file).string() : shape_name(spec.shape);
       throw GeometryError(fmt::format("drop {} ({}): {}", d, what, error.what()), error.faces(), error.vertices());
     }
   }

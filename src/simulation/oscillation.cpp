@@ -32,7 +32,8 @@ double mode_two_amplitude(const Drop& drop) {
     const Vector3d r = x.col(i) - center;
     const double length = r.norm();
     if (!(length > 0)) continue;
-    const double p2 = legendre_two(r.z() / length), weight = geometry.lumped_area(i) / (length * length);  // solid angle
+    const double p2 = legendre_two(r.z() / length),
+                 weight = geometry.lumped_area(i) / (length * length);  // solid angle
     projection += weight * length * p2;
     norm += weight * p2 * p2;
     radius += weight * length;
@@ -40,7 +41,8 @@ double mode_two_amplitude(const Drop& drop) {
   return projection / norm / (radius / (4 * M_PI));
 }
 
-OscillationResult measure_oscillation(int frequency, double amplitude, double dt, int steps, const StepOptions& options) {
+OscillationResult measure_oscillation(int frequency, double amplitude, double dt, int steps,
+                                      const StepOptions& options) {
   const double radius = 0.2;
   OscillationResult result;
   result.rayleigh = std::sqrt(8 * options.liquid.surface_tension / (options.liquid.density * std::pow(radius, 3)));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/simulation/simulation.h"
 
+#include "meniscus/operators/external_forces.h"
+
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
@@ -16,7 +18,10 @@ Simulation::Simulation(const Scene& scene) : solids_(make_solids(scene)), drops_
 }
 
 Simulation::Simulation(const Scene& scene, std::vector<Drop> drops)
-    : solids_(make_solids(scene)), drops_(std::move(drops)), options_(make_step_options(scene)), time_step_(scene.time_step) {
+    : solids_(make_solids(scene)),
+      drops_(std::move(drops)),
+      options_(make_step_options(scene)),
+      time_step_(scene.time_step) {
   for (Drop& drop : drops_) {
     find_contact(drop, solids_, time_, contact_tolerance);
     next_id_ = std::max(next_id_, drop.id() + 1);

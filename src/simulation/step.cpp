@@ -14,6 +14,8 @@
 namespace meniscus {
 namespace {
 
+using Eigen::Vector3d;
+
 /// Adds up seconds by stage, if there is a clock.
 class StageClock {
  public:
@@ -60,6 +62,7 @@ DampingOptions damping_options(const StepOptions& step) {
     options.viscosity_coefficient = viscosity_to_eta * step.liquid.viscosity;
     options.keep_rigid_motion = true;
     options.tangential_damping = 1;
+    options.correct_positions = true;
   }
   return options;
 }
@@ -76,11 +79,15 @@ MeanCurvatureFlowOptions flow_options(const StepOptions& step, double tension, d
   return options;
 }
 
+/// xi, g/(cm s): what a moving contact line of water on smooth solids meets, in order of magnitude.
+constexpr double contact_line_friction = 1;
+
 ContactAngleOptions contact_angle_options(const StepOptions& step, double tension) {
   ContactAngleOptions options;
   options.force = step.level == Level::paper ? ContactForce::measured_angle : ContactForce::virtual_work;
   options.boundary_force = step.paper.boundary_force;
   options.tension_over_mass = tension;
+  options.line_friction_over_mass = contact_line_friction * tension / step.liquid.surface_tension;
   return options;
 }
 
@@ -101,28 +108,42 @@ RemeshOptions remesh_options(const StepOptions& step) {
   return options;
 }
 
-}  // namespace
+/// At most this much of a drop's lowest mode's phase, sqrt(2), passes in one substep of Level::calibrated:
+/// (omega dt)^2 = 4 c dt^2/R^2 <= 2. Beyond, one implicit step of the flow would shrink the drop by half.
+constexpr double largest_phase_squared = 2;
+/// Near a solid a drop moves at most this share of its length 3 V/A a substep, so that it meets the
+/// solid with its front and not as a whole.
+constexpr double largest_move = 0.5;
+constexpr int most_substeps = 256;
 
-const char* stage_name(Stage stage) {
-  constexpr const char* names[num_stages] = {"external_forces", "geometry",          "damping", "curvature_flow",
-                                             "contact_angle",   "volume_correction", "remesh",  "split"};
-  return names[static_cast<std::size_t>(stage)];
+/// How many substeps keep a step of this drop within the limits above.
+int num_substeps(Drop& drop, const std::vector<Solid>& solids, double time, double dt, const StepOptions& options) {
+  const ConstColumns x = drop.positions(), v = drop.velocities();
+  Eigen::AlignedBox3d box;
+  double speed = 0;
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
+    if (drop.connectivity().degree(i) == 0) continue;
+    box.extend(Vector3d(x.col(i)));
+    speed = std::max(speed, v.col(i).squaredNorm());
+  }
+  if (box.isEmpty()) return 1;
+  const double length = std::cbrt(3 * drop.target_volume() / (4 * M_PI));
+  double substeps = 1;
+  if (options.level != Level::paper) {
+    const double tension = 2 * options.liquid.surface_tension / (options.liquid.density * length);
+    substeps = std::max(substeps, std::sqrt(4 * tension / largest_phase_squared) * dt / length);
+  }
+  const double move = (std::sqrt(speed) + options.gravity.norm() * dt) * dt;
+  const bool near = std::any_of(solids.begin(), solids.end(), [&](const Solid& solid) {
+    return solid.is_near(box, time, move + solid.velocity(time).norm() * dt);
+  });
+  if (near) substeps = std::max(substeps, move / (largest_move * length));
+  return static_cast<int>(std::ceil(std::min(substeps, static_cast<double>(most_substeps))));
 }
 
-StepReport& StepReport::operator+=(const StepReport& other) {
-  for (std::size_t k = 0; k < num_stages; ++k) stage_seconds[k] += other.stage_seconds[k];
-  triangles += other.triangles;
-  edge_operations += other.edge_operations;
-  cuts += other.cuts;
-  deleted += other.deleted;
-  limited_volume += other.limited_volume;
-  solver_iterations = std::max(solver_iterations, other.solver_iterations);
-  worst_volume_error = std::max(worst_volume_error, other.worst_volume_error);
-  return *this;
-}
-
-std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt, const StepOptions& options,
-                            Remesher& remesher, StepReport& report) {
+/// One substep: the paper's Figure 1.
+std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
+                          const StepOptions& options, Remesher& remesher, StepReport& report) {
   StageClock clock(options.clock, report);
   const ExternalForcesReport forces = apply_external_forces(drop, solids, time, dt, external_forces_options(options));
   clock.done(Stage::external_forces);
@@ -135,12 +156,19 @@ std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double 
   apply_damping(drop, geometry, dt, damping_options(options));
   clock.done(Stage::damping);
 
+  // The paper moves the contact line after the flow; there the surface stands back by what the volume
+  // correction will give it again, and the angle is off by as much. Before the flow it is whole.
+  const auto move_contact_line = [&] {
+    if (forces.colliding > 0)
+      apply_contact_angle(drop, solids, geometry, time, dt, contact_angle_options(options, tension));
+    clock.done(Stage::contact_angle);
+  };
+  if (options.level != Level::paper) move_contact_line();
+
   const SolveReport flow = flow_by_mean_curvature(drop, geometry, dt, flow_options(options, tension, dt));
   report.solver_iterations = std::max(report.solver_iterations, flow.iterations);
   clock.done(Stage::curvature_flow);
-
-  if (forces.colliding > 0) apply_contact_angle(drop, solids, geometry, time, dt, contact_angle_options(options, tension));
-  clock.done(Stage::contact_angle);
+  if (options.level == Level::paper) move_contact_line();
 
   const VolumeCorrectionReport volume = correct_volume(drop, geometry, dt, volume_options(options));
   report.limited_volume += volume.limited;
@@ -162,9 +190,47 @@ std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double 
   } else {
     pieces.push_back(std::move(drop));
   }
-  for (const Drop& piece : pieces) report.triangles += piece.mesh().number_of_faces();
   clock.done(Stage::split);
   return pieces;
+}
+
+}  // namespace
+
+const char* stage_name(Stage stage) {
+  constexpr const char* names[num_stages] = {"external_forces", "geometry",          "damping", "curvature_flow",
+                                             "contact_angle",   "volume_correction", "remesh",  "split"};
+  return names[static_cast<std::size_t>(stage)];
+}
+
+StepReport& StepReport::operator+=(const StepReport& other) {
+  for (std::size_t k = 0; k < num_stages; ++k) stage_seconds[k] += other.stage_seconds[k];
+  triangles += other.triangles;
+  edge_operations += other.edge_operations;
+  cuts += other.cuts;
+  deleted += other.deleted;
+  limited_volume += other.limited_volume;
+  substeps = std::max(substeps, other.substeps);
+  solver_iterations = std::max(solver_iterations, other.solver_iterations);
+  worst_volume_error = std::max(worst_volume_error, other.worst_volume_error);
+  return *this;
+}
+
+std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt,
+                            const StepOptions& options, Remesher& remesher, StepReport& report) {
+  const int substeps = num_substeps(drop, solids, time, dt, options);
+  report.substeps = substeps;
+  std::vector<Drop> drops;
+  drops.push_back(std::move(drop));
+  for (int k = substeps - 1; k >= 0; --k) {
+    std::vector<Drop> next;
+    for (Drop& piece : drops)
+      for (Drop& part :
+           substep(std::move(piece), solids, time - k * (dt / substeps), dt / substeps, options, remesher, report))
+        next.push_back(std::move(part));
+    drops = std::move(next);
+  }
+  for (const Drop& piece : drops) report.triangles += piece.mesh().number_of_faces();
+  return drops;
 }
 
 }  // namespace meniscus

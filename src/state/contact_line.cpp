@@ -51,6 +51,7 @@ std::optional<ContactLineVertex> contact_line_vertex(const Drop& drop, std::uint
   if (!(line.length > 0) || !(air_normal.norm() > 0)) return std::nullopt;
   line.outward = wet_gradient / line.length;
   line.angle = std::acos(std::clamp(air_normal.normalized().dot(normal), -1.0, 1.0));
+  line.volume_gradient = air_normal.dot(line.outward) / 3;
   line.energy_cosine = air_gradient.dot(line.outward) / line.length;
   return line;
 }

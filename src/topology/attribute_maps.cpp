@@ -28,7 +28,8 @@ bool is_internal(const std::string& name) {
 }
 
 template <class T>
-bool gather_if_of_type(const Mesh& from, Mesh& to, const std::string& name, const std::vector<AttributeSource>& sources) {
+bool gather_if_of_type(const Mesh& from, Mesh& to, const std::string& name,
+                       const std::vector<AttributeSource>& sources) {
   const auto found = from.property_map<VertexIndex, T>(name);
   if (!found.second) return false;
   const auto& old = found.first;

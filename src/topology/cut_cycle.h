@@ -9,7 +9,7 @@ namespace meniscus {
 
 /// What cut_along_cycle made.
 struct CycleCut {
-  std::vector<VertexIndex> copies;              ///< the right side's copy of each vertex of the cycle
+  std::vector<VertexIndex> copies;  ///< the right side's copy of each vertex of the cycle
   VertexIndex left_center = Mesh::null_vertex(), right_center = Mesh::null_vertex();  ///< caps of more than one face
 };
 

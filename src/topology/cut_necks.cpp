@@ -9,8 +9,8 @@
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/boost/graph/Euler_operations.h>
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
@@ -22,10 +22,10 @@ namespace {
 using Primitive = CGAL::AABB_face_graph_triangle_primitive<Mesh>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
-constexpr double growth = 1.25;    // of the perimeter, to both sides of a neck
-constexpr int directions = 12;     // of the axis, tried about a vertex's normal
-constexpr int steps = 400;         // along the axis, an eighth of the diameter each
-constexpr double snap = 0.15;      // crossings nearer to a vertex, in edge lengths, take the vertex
+constexpr double growth = 1.25;  // of the perimeter, to both sides of a neck
+constexpr int directions = 12;   // of the axis, tried about a vertex's normal
+constexpr int steps = 400;       // along the axis, an eighth of the diameter each
+constexpr double snap = 0.15;    // crossings nearer to a vertex, in edge lengths, take the vertex
 
 /// A vertex on whose other side, straight through the liquid, the surface is near.
 struct ThinPlace {
@@ -154,8 +154,10 @@ std::vector<VertexIndex> insert_vertices(Mesh& mesh, AttributeMaps& attributes, 
       mesh.point(v) = to_point(p + t * (q - p));
       attributes.interpolate(v, a, b, t);
     }
-    if (loop.empty() || (loop.back() != v && loop.front() != v)) loop.push_back(v);
-    else if (loop.front() == v && loop.back() != v && h != neck.section.crossings.back()) loop.push_back(v);
+    if (loop.empty() || (loop.back() != v && loop.front() != v))
+      loop.push_back(v);
+    else if (loop.front() == v && loop.back() != v && h != neck.section.crossings.back())
+      loop.push_back(v);
   }
   while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
   return loop;
@@ -220,7 +222,8 @@ bool cut_at(Mesh& mesh, const Neck& neck, double gap) {
   for (std::size_t k = 0; k < loop.size() && loop.size() >= 3; ++k)
     cycle.push_back(connect(mesh, loop[k], loop[(k + 1) % loop.size()]));
   triangulate_around(mesh, loop);
-  if (std::find(cycle.begin(), cycle.end(), Mesh::null_halfedge()) != cycle.end() || !is_cuttable(mesh, cycle)) return false;
+  if (std::find(cycle.begin(), cycle.end(), Mesh::null_halfedge()) != cycle.end() || !is_cuttable(mesh, cycle))
+    return false;
   const auto cut = cut_along_cycle(mesh, cycle);
   for (std::size_t k = 0; k < loop.size(); ++k) attributes.copy(cut.copies[k], loop[k]);
   place_center(mesh, attributes, cut.left_center, loop);

@@ -87,23 +87,27 @@ Eigen::Vector3d volume_keeping_point(const RemeshState& state, VertexIndex a, Ve
   return norm <= most ? Eigen::Vector3d(middle + offset) : Eigen::Vector3d(middle + offset * (most / norm));
 }
 
-/// Checks every face about v that stays, with v at x.
+/// Checks every face about v that stays, with v at x. A face that is folded over already (it looks
+/// away from the vertex normal) is to unfold: it is held against that normal.
 Refusal would_harm_star(const RemeshState& state, VertexIndex v, VertexIndex other, const Eigen::Vector3d& x,
                         bool becomes_colliding, std::vector<Eigen::Vector3d>& normals) {
   constexpr double thin = 0.05;  // twice the area over the longest side squared: 0.87 for an equilateral triangle
   const double bound = std::cos(state.options.max_normal_turn);
-  const Eigen::Vector3d x_old = state.point(v);
+  const Eigen::Vector3d x_old = state.point(v), normal = state.normal(v);
   Refusal refusal = Refusal::none;
   for_each_kept_face(state, v, other, [&](VertexIndex vp, VertexIndex vq) {
     if (refusal != Refusal::none) return;
     const Eigen::Vector3d p = state.point(vp), q = state.point(vq);
     const Eigen::Vector3d n_old = (p - x_old).cross(q - x_old), n_new = (p - x).cross(q - x);
     const double old_norm = n_old.norm(), new_norm = n_new.norm(), rim2 = (q - p).squaredNorm();
-    const double xp2 = (p - x).squaredNorm(), old_longest2 = std::max({rim2, (p - x_old).squaredNorm(), (q - x_old).squaredNorm()});
+    const double xp2 = (p - x).squaredNorm(),
+                 old_longest2 = std::max({rim2, (p - x_old).squaredNorm(), (q - x_old).squaredNorm()});
     const double new_longest2 = std::max({rim2, xp2, (q - x).squaredNorm()});
-    const bool was_thin = old_norm < thin * old_longest2;
-    const double weight = becomes_colliding && state.colliding(vp) && state.colliding(vq) ? state.options.band.wetted_weight : 1;
-    if (!(n_new.dot(n_old) > bound * new_norm * old_norm) && !(was_thin && n_new.dot(n_old) >= 0))
+    const bool was_folded = n_old.dot(normal) < 0, was_thin = was_folded || old_norm < thin * old_longest2;
+    const double turn = was_folded ? n_new.dot(normal) : n_new.dot(n_old) / old_norm;  // cosine times new_norm
+    const double weight =
+        becomes_colliding && state.colliding(vp) && state.colliding(vq) ? state.options.band.wetted_weight : 1;
+    if (!(turn > bound * new_norm) && !(was_thin && turn >= 0))
       refusal = Refusal::would_invert;
     else if (new_norm < thin * new_longest2 && !(was_thin && new_norm * old_longest2 > old_norm * new_longest2))
       refusal = Refusal::would_be_sliver;
@@ -124,10 +128,14 @@ bool would_fold(const std::vector<Eigen::Vector3d>& normals) {
 
 Eigen::Vector3d point_of(const RemeshState& state, VertexIndex a, VertexIndex b, Target target) {
   switch (target) {
-    case Target::first: return state.point(a);
-    case Target::second: return state.point(b);
-    case Target::midpoint: return 0.5 * (state.point(a) + state.point(b));
-    default: return volume_keeping_point(state, a, b);
+    case Target::first:
+      return state.point(a);
+    case Target::second:
+      return state.point(b);
+    case Target::midpoint:
+      return 0.5 * (state.point(a) + state.point(b));
+    default:
+      return volume_keeping_point(state, a, b);
   }
 }
 
@@ -157,7 +165,8 @@ Refusal try_collapse(RemeshState& state, HalfedgeIndex h) {
   Refusal refusal = would_harm(state, h, target);
   // Where the middle will not do, an end may.
   for (const Target end : {Target::first, Target::second})
-    if (refusal != Refusal::none && choice.target == Target::volume_keeping && would_harm(state, h, end) == Refusal::none) {
+    if (refusal != Refusal::none && choice.target == Target::volume_keeping &&
+        would_harm(state, h, end) == Refusal::none) {
       target = end;
       refusal = Refusal::none;
     }

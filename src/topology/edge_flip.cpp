@@ -32,10 +32,10 @@ bool would_change_shape(const RemeshState& state, HalfedgeIndex h) {
   const double coplanar = std::cos(state.options.max_flip_dihedral);
   // A face of next to no area has no direction to keep.
   const double length2 = state.squared_length(h);
-  const bool is_thin = std::min(n_norm, m_norm) < 1e-3 * length2;
+  const bool is_thin = std::min(n_norm, m_norm) < 0.05 * length2;
   if (!is_thin && n.dot(m) < coplanar * n_norm * m_norm) return true;
-  const Eigen::Vector3d a = state.point(mesh.source(h)), b = state.point(mesh.target(h)), o = state.point(state.apex(h)),
-                        p = state.point(state.apex(mesh.opposite(h)));
+  const Eigen::Vector3d a = state.point(mesh.source(h)), b = state.point(mesh.target(h)),
+                        o = state.point(state.apex(h)), p = state.point(state.apex(mesh.opposite(h)));
   const Eigen::Vector3d sum = n + m;
   const Eigen::Vector3d at_a = (p - a).cross(o - a), at_b = (o - b).cross(p - b);
   const auto points_away = [&](const Eigen::Vector3d& n_new) {

@@ -34,14 +34,18 @@ bool would_fold_cap(const RemeshState& state, const std::vector<HalfedgeIndex>& 
 
 bool is_flat(const RemeshState& state, const std::vector<HalfedgeIndex>& cycle) {
   double longest2 = 0;
-  for (const auto h : cycle) longest2 = std::max(longest2, (state.point(state.mesh.target(h)) - state.point(state.mesh.source(h))).squaredNorm());
+  for (const auto h : cycle)
+    longest2 =
+        std::max(longest2, (state.point(state.mesh.target(h)) - state.point(state.mesh.source(h))).squaredNorm());
   const Eigen::Vector3d a = state.point(state.mesh.source(cycle[0]));
-  const Eigen::Vector3d n = (state.point(state.mesh.source(cycle[1])) - a).cross(state.point(state.mesh.source(cycle[2])) - a);
+  const Eigen::Vector3d n =
+      (state.point(state.mesh.source(cycle[1])) - a).cross(state.point(state.mesh.source(cycle[2])) - a);
   return !(n.norm() > 0.05 * longest2);
 }
 
 /// Where a vertex of a cap goes: toward the mean of its ring, the cap's own vertices left out.
-Eigen::Vector3d step_to_own_side(const RemeshState& state, VertexIndex v, const std::array<VertexIndex, 3>& cap, double length) {
+Eigen::Vector3d step_to_own_side(const RemeshState& state, VertexIndex v, const std::array<VertexIndex, 3>& cap,
+                                 double length) {
   const Ring r = state.ring(v);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   int count = 0;
@@ -58,7 +62,8 @@ Eigen::Vector3d step_to_own_side(const RemeshState& state, VertexIndex v, const 
     direction -= direction.dot(n) * n;
   }
   const double norm = direction.norm();
-  return norm > 0 ? Eigen::Vector3d(direction * (std::min(length, 0.5 * norm) / norm)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  return norm > 0 ? Eigen::Vector3d(direction * (std::min(length, 0.5 * norm) / norm))
+                  : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
 void cut(RemeshState& state, const std::vector<HalfedgeIndex>& cycle) {

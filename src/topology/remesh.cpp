@@ -12,7 +12,8 @@
 namespace meniscus {
 namespace {
 
-constexpr double poor_angle_tangent = 0.17632698;  // tan(10 degrees)
+constexpr double poor_angle_tangent = 0.17632698;   // tan(10 degrees)
+constexpr double sharp_angle_tangent = 0.57735027;  // tan(30 degrees)
 
 /// The squared sides of a triangle and what follows from them: corner k faces side k.
 struct Sides {
@@ -26,10 +27,15 @@ struct Sides {
         sum(squared[0] + squared[1] + squared[2]) {}
 
   bool is_obtuse() const { return sum < 2 * greatest; }
-  /// Least angle under 10 degrees: tan = 2 A / dot, and (2 A)^2 = s_0 s_1 - dot_2^2.
-  bool is_poor() const {
+  /// Least angle under 10 degrees.
+  bool is_poor() const { return is_least_angle_under(poor_angle_tangent); }
+  bool is_sharp() const { return is_least_angle_under(sharp_angle_tangent); }
+
+ private:
+  /// tan = 2 A / dot at the corner that faces the least side, and (2 A)^2 = s_0 s_1 - dot^2.
+  bool is_least_angle_under(double tangent) const {
     const double dot = 0.5 * (sum - 2 * least), middle = sum - least - greatest;
-    return middle * greatest - dot * dot < poor_angle_tangent * poor_angle_tangent * dot * dot;
+    return middle * greatest - dot * dot < tangent * tangent * dot * dot;
   }
 };
 
@@ -49,7 +55,8 @@ void inspect_face(RemeshState& state, FaceIndex f, const Sides& sides, bool is_w
   for (int k = 0; k < 3; ++k) {
     const auto u = t[(k + 1) % 3], v = t[(k + 2) % 3];
     const double length2 = sides.squared[k];
-    if (u < v && (is_wet || length2 < low2 || length2 > high2)) state.queue(state.mesh.edge(halfedge_from(state.mesh, f, u)));
+    if (u < v && (is_wet || length2 < low2 || length2 > high2))
+      state.queue(state.mesh.edge(halfedge_from(state.mesh, f, u)));
     if (sides.sum < 2 * length2) {  // obtuse at corner k
       const auto h = halfedge_from(state.mesh, f, u);
       if (cotangent_sum(state, h) < negative_weight) state.queue_flip(state.mesh.edge(h));
@@ -71,14 +78,30 @@ void count_left_out(RemeshState& state) {
     ++(state.is_long(length2) ? state.report.edges_above : state.report.edges_below);
     RefusedEdges& counts = state.report.refused;
     switch (why) {
-      case Refusal::link_condition: ++counts.link_condition; break;
-      case Refusal::would_be_sliver: ++counts.would_be_sliver; break;
-      case Refusal::would_be_long: ++counts.would_be_long; break;
-      case Refusal::valence: ++counts.valence; break;
-      case Refusal::feature: ++counts.feature; break;
-      case Refusal::contact_line: ++counts.contact_line; break;
-      case Refusal::near_intersection: ++counts.near_intersection; break;
-      default: ++counts.would_invert; break;
+      case Refusal::link_condition:
+        ++counts.link_condition;
+        break;
+      case Refusal::would_be_sliver:
+        ++counts.would_be_sliver;
+        break;
+      case Refusal::would_be_long:
+        ++counts.would_be_long;
+        break;
+      case Refusal::valence:
+        ++counts.valence;
+        break;
+      case Refusal::feature:
+        ++counts.feature;
+        break;
+      case Refusal::contact_line:
+        ++counts.contact_line;
+        break;
+      case Refusal::near_intersection:
+        ++counts.near_intersection;
+        break;
+      default:
+        ++counts.would_invert;
+        break;
     }
     for (const auto v : {state.mesh.source(h), state.mesh.target(h)}) state.drop.poor_quality()[v] = 1;
   }
@@ -99,8 +122,9 @@ void scan(RemeshState& state) {
     const auto& t = triangles[f];
     if (t[0] == Connectivity::removed) continue;
     const Sides sides(x.col(t[0]), x.col(t[1]), x.col(t[2]));
-    const bool is_wet = state.has_contact && is_colliding(contact[t[0]]) && is_colliding(contact[t[1]]) &&
-                        is_colliding(contact[t[2]]);
+    const bool is_wet =
+        state.has_contact && is_colliding(contact[t[0]]) && is_colliding(contact[t[1]]) && is_colliding(contact[t[2]]);
+    state.has_sharp_angle |= sides.is_sharp();
     if (sides.least < low2 || sides.greatest > high2 || sides.is_obtuse() || sides.is_poor() || is_wet)
       inspect_face(state, FaceIndex(f), sides, is_wet);
   }
@@ -129,17 +153,18 @@ void check_options(const RemeshOptions& options) {
     throw UsageError(fmt::format("edge lengths must be finite and above 0: edge_min is {}, edge_max is {} (cm)",
                                  band.edge_min, band.edge_max));
   if (!(band.edge_max > 2 * band.edge_min))
-    throw UsageError(fmt::format("edge_max ({} cm) must be more than twice edge_min ({} cm), or edges would be split "
-                                 "and collapsed in turn; the paper takes three times",
-                                 band.edge_max, band.edge_min));
+    throw UsageError(
+        fmt::format("edge_max ({} cm) must be more than twice edge_min ({} cm), or edges would be split "
+                    "and collapsed in turn; the paper takes three times",
+                    band.edge_max, band.edge_min));
   if (!(band.wetted_weight > 0 && band.wetted_weight <= 1))
     throw UsageError(fmt::format("the wetted weight must lie in (0, 1]; it is {}", band.wetted_weight));
   if (!(options.smoothing >= 0 && options.smoothing <= 1))
     throw UsageError(fmt::format("the smoothing must lie in [0, 1]; it is {}", options.smoothing));
   if (options.max_passes < 1) throw UsageError("remeshing needs at least one pass");
   if (options.feature_angle && !(*options.feature_angle > 0 && *options.feature_angle < 3.1416))
-    throw UsageError(fmt::format("the feature angle must lie between 0 and 180 degrees; it is {} radians",
-                                 *options.feature_angle));
+    throw UsageError(
+        fmt::format("the feature angle must lie between 0 and 180 degrees; it is {} radians", *options.feature_angle));
 }
 
 Remesher::Remesher() : scratch_(std::make_unique<Scratch>()) {}
@@ -158,7 +183,7 @@ RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOpt
   RemeshState state(drop, options, scratch);
   scan(state);
   const bool rests = scratch.splits.empty() && scratch.collapses.empty() && scratch.flips.empty();
-  if (rests && options.smoothing == 0) return state.report;
+  if (rests && (options.smoothing == 0 || !state.has_sharp_angle)) return state.report;
   run_passes(state);
   mark_poor_quality(state);
   if (state.report.changed()) {

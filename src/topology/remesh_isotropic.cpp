@@ -26,7 +26,8 @@ void check(const Mesh& mesh, double target_edge, int iterations) {
     throw UsageError(fmt::format("the target edge length must be finite and above 0; it is {} cm", target_edge));
   if (iterations < 1) throw UsageError(fmt::format("remeshing needs at least one iteration, not {}", iterations));
   if (mesh.number_of_faces() == 0) throw GeometryError("the mesh has no faces to remesh");
-  if (!CGAL::is_triangle_mesh(mesh)) throw GeometryError("the mesh has faces that are not triangles; triangulate it first");
+  if (!CGAL::is_triangle_mesh(mesh))
+    throw GeometryError("the mesh has faces that are not triangles; triangulate it first");
   const double faces = estimated_faces(PMP::area(mesh), target_edge);
   if (!(faces <= 50e6))
     throw UsageError(fmt::format("edges of {} cm would need about {:.3g} faces (at most 50 million); take longer edges",
@@ -37,7 +38,8 @@ void check(const Mesh& mesh, double target_edge, int iterations) {
 AttributeSource weights_in(const Mesh& mesh, FaceIndex f, const Point& p) {
   const auto h = mesh.halfedge(f);
   const std::array<VertexIndex, 3> v{mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))};
-  const Vector e1 = mesh.point(v[1]) - mesh.point(v[0]), e2 = mesh.point(v[2]) - mesh.point(v[0]), d = p - mesh.point(v[0]);
+  const Vector e1 = mesh.point(v[1]) - mesh.point(v[0]), e2 = mesh.point(v[2]) - mesh.point(v[0]),
+               d = p - mesh.point(v[0]);
   const double a = e1 * e1, b = e1 * e2, c = e2 * e2, det = a * c - b * b;
   if (!(det > 0)) return same_as(v[0]);
   const double s = (c * (e1 * d) - b * (e2 * d)) / det, t = (a * (e2 * d) - b * (e1 * d)) / det;
@@ -63,9 +65,9 @@ void remesh_isotropic(Mesh& mesh, double target_edge, int iterations, std::optio
   const std::string name = "e:kept_sharp";
   auto is_sharp = mesh.add_property_map<EdgeIndex, bool>(name, false).first;
   if (feature_angle) PMP::detect_sharp_edges(mesh, *feature_angle * 180 / CGAL_PI, is_sharp);
-  PMP::isotropic_remeshing(mesh.faces(), target_edge, mesh,
-                           CGAL::parameters::number_of_iterations(static_cast<unsigned>(iterations))
-                               .edge_is_constrained_map(is_sharp));
+  PMP::isotropic_remeshing(
+      mesh.faces(), target_edge, mesh,
+      CGAL::parameters::number_of_iterations(static_cast<unsigned>(iterations)).edge_is_constrained_map(is_sharp));
   mesh.remove_property_map(is_sharp);
   mesh.collect_garbage();
   carry_attributes(old, mesh);

@@ -25,9 +25,10 @@ double faces_to_be(const RemeshState& state) {
 void check_face_budget(const RemeshState& state) {
   const double faces = faces_to_be(state);
   if (faces > state.options.max_faces)
-    throw GeometryError(fmt::format("the drop's edges are so long for edge_max = {} cm that it would need {:.3g} faces "
-                                    "(at most {:.3g}); take a wider band, or a smaller time step if it blew up",
-                                    state.options.band.edge_max, faces, state.options.max_faces));
+    throw GeometryError(
+        fmt::format("the drop's edges are so long for edge_max = {} cm that it would need {:.3g} faces "
+                    "(at most {:.3g}); take a wider band, or a smaller time step if it blew up",
+                    state.options.band.edge_max, faces, state.options.max_faces));
 }
 
 template <class Later, class Try>
@@ -116,7 +117,7 @@ void run_passes(RemeshState& state) {
     const bool is_last = pass + 1 == options.max_passes;
     const bool did_something = state.report.splits + state.report.collapses + state.report.flips + state.report.cuts >
                                before.splits + before.collapses + before.flips + before.cuts;
-    if (is_last) break;
+    if (is_last || (!did_something && pass > 0)) break;
     if (options.smoothing > 0) {
       smooth_tangentially(state, options.smoothing);
       state.scratch.refused.clear();

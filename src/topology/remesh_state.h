@@ -42,11 +42,11 @@ struct Remesher::Scratch {
   std::vector<QueuedEdge> splits_now;         ///< the heap of the round
   std::vector<EdgeIndex> flips;               ///< sorted within a round
   std::vector<EdgeIndex> flips_now;
-  std::vector<std::uint8_t> in_flips;         ///< by edge
+  std::vector<std::uint8_t> in_flips;  ///< by edge
   std::vector<std::pair<EdgeIndex, Refusal>> refused;
-  std::vector<VertexIndex> changed;           ///< vertices whose faces changed, with repeats
-  std::vector<Eigen::Vector3d> ring;          ///< points of a ring, relative to a centre
-  std::vector<VertexIndex> around;            ///< vertices of the rings of an edge
+  std::vector<VertexIndex> changed;   ///< vertices whose faces changed, with repeats
+  std::vector<Eigen::Vector3d> ring;  ///< points of a ring, relative to a centre
+  std::vector<VertexIndex> around;    ///< vertices of the rings of an edge
   std::vector<HalfedgeIndex> cycle;
   AttributeMaps attributes;
   std::vector<ForbiddenBall> forbidden;
@@ -64,7 +64,8 @@ struct RemeshState {
   const RemeshOptions& options;
   Remesher::Scratch& scratch;
   RemeshReport report;
-  bool has_contact = false;  ///< some vertex is colliding
+  bool has_contact = false;      ///< some vertex is colliding
+  bool has_sharp_angle = false;  ///< some corner is under 30 degrees: smoothing has something to do
 
   Eigen::Vector3d point(VertexIndex v) const { return to_eigen(mesh.point(v)); }
   bool colliding(VertexIndex v) const { return has_contact && is_colliding(drop.contact()[v]); }

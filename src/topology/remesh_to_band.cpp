@@ -2,10 +2,11 @@
 #include "meniscus/core/error.h"
 #include "meniscus/geometry/self_intersection.h"
 #include "meniscus/topology/remesh_isotropic.h"
+#include "meniscus/topology/split.h"
 #include "remesh_state.h"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -38,9 +39,8 @@ Meetings meetings_of(const Mesh& mesh) {
 Meetings new_ones(const Meetings& found, const Meetings& before, double reach) {
   Meetings result;
   for (std::size_t i = 0; i < found.places.size(); ++i) {
-    const bool is_old = std::any_of(before.places.begin(), before.places.end(), [&](const Eigen::Vector3d& p) {
-      return (p - found.places[i]).norm() < reach;
-    });
+    const bool is_old = std::any_of(before.places.begin(), before.places.end(),
+                                    [&](const Eigen::Vector3d& p) { return (p - found.places[i]).norm() < reach; });
     if (is_old) continue;
     result.places.push_back(found.places[i]);
     result.faces.push_back(found.faces[i]);
@@ -57,9 +57,25 @@ void check_number_of_faces(const Drop& drop, const RemeshOptions& options) {
       area += 0.5 * Eigen::Vector3d(x.col(t[1]) - x.col(t[0])).cross(Eigen::Vector3d(x.col(t[2]) - x.col(t[0]))).norm();
   const double faces = estimated_faces(area, 0.5 * (band.edge_min + band.edge_max));
   if (faces > options.max_faces)
-    throw UsageError(fmt::format("edges of {} to {} cm on an area of {:.3g} cm^2 would need about {:.3g} faces (at most "
-                                 "{:.3g}); take longer edges",
-                                 band.edge_min, band.edge_max, area, faces, options.max_faces));
+    throw UsageError(
+        fmt::format("edges of {} to {} cm on an area of {:.3g} cm^2 would need about {:.3g} faces (at most "
+                    "{:.3g}); take longer edges",
+                    band.edge_min, band.edge_max, area, faces, options.max_faces));
+}
+
+/// Takes out the tetrahedra and the components inside out that cuts left, if anything else is there.
+std::size_t delete_specks(Drop& drop) {
+  SplitReport split;
+  const auto pieces = split_components(drop, split);
+  const std::size_t deleted = split.deleted + split.deleted_empty;
+  if (deleted == 0 || pieces.empty()) return 0;
+  Mesh mesh = pieces[0].mesh();
+  for (std::size_t k = 1; k < pieces.size(); ++k) mesh += pieces[k].mesh();
+  Drop rest(std::move(mesh));
+  rest.set_target_volume(drop.target_volume());
+  rest.set_id(drop.id());
+  drop = std::move(rest);
+  return deleted;
 }
 
 }  // namespace
@@ -75,6 +91,7 @@ RemeshReport remesh_to_band(Drop& drop, const RemeshOptions& options, int max_re
   for (int retry = 0;; ++retry) {
     RemeshReport report = remesh_with(scratch, drop, options);
     report.retries = retry;
+    if (report.cuts > 0) report.deleted = delete_specks(drop);
     Meetings found = meetings_of(drop.mesh());
     if (!found.places.empty()) {
       if (!before) before = meetings_of(kept.mesh());
@@ -83,11 +100,11 @@ RemeshReport remesh_to_band(Drop& drop, const RemeshOptions& options, int max_re
     if (found.places.empty()) return report;
     drop = kept;
     if (retry == max_retries)
-      throw GeometryError(fmt::format("refused: the surface would meet itself at {} faces, first near ({:.4g}, {:.4g}, "
-                                      "{:.4g}), after {} attempts; take shorter edges, or cut the thin places first",
-                                      found.faces.size(), found.places[0].x(), found.places[0].y(), found.places[0].z(),
-                                      retry + 1),
-                          found.faces);
+      throw GeometryError(
+          fmt::format("refused: the surface would meet itself at {} faces, first near ({:.4g}, {:.4g}, "
+                      "{:.4g}), after {} attempts; take shorter edges, or cut the thin places first",
+                      found.faces.size(), found.places[0].x(), found.places[0].y(), found.places[0].z(), retry + 1),
+          found.faces);
     const double radius = options.band.edge_max * (1 + retry);
     for (const auto& place : found.places) scratch.forbidden.push_back({place, radius});
   }

@@ -30,16 +30,18 @@ RingMoments ring_moments(const Point* points, const Ring& r, const Eigen::Vector
   return m;
 }
 
-/// Would any face of the ring turn by more than 60 degrees, or become thinner than it may?
-bool is_safe(const Point* points, const Ring& r, const Eigen::Vector3d& x, const Eigen::Vector3d& step) {
+/// No face of the ring turns by more than 60 degrees or becomes much thinner. Faces that are folded
+/// over already, against the ring's area vector, do not count: smoothing unfolds them.
+bool is_safe(const Point* points, const Ring& r, const Eigen::Vector3d& x, const Eigen::Vector3d& step,
+             const Eigen::Vector3d& area_vector) {
   Eigen::Vector3d previous = to_eigen(points[r.neighbour[r.degree - 1]]) - x;
   for (int k = 0; k < r.degree; ++k) {
     const Eigen::Vector3d next = to_eigen(points[r.neighbour[k]]) - x;
     const Eigen::Vector3d n = previous.cross(next), m = (previous - step).cross(next - step);
     const double dot = n.dot(m), n2 = n.squaredNorm(), m2 = m.squaredNorm();
-    if (!(dot > 0 && 4 * dot * dot > n2 * m2)) return false;
-    if (m2 < 0.04 * n2) return false;
     previous = next;
+    if (n.dot(area_vector) < 0) continue;
+    if (!(dot > 0 && 4 * dot * dot > n2 * m2) || m2 < 0.04 * n2) return false;
   }
   return true;
 }
@@ -68,7 +70,7 @@ void smooth_tangentially(RemeshState& state, double factor) {
   for (std::uint32_t i = 0; i < rows; ++i) {
     const VertexIndex v(i);
     const Ring r = state.ring(v);
-    if (r.degree == 0 || state.on_line(v)) continue;
+    if (r.degree <= 3 || state.on_line(v)) continue;  // a tetrahedron's corners have no tangent plane
     if (state.options.feature_angle && state.feature_rank(v) > 0) continue;
     const Eigen::Vector3d x = to_eigen(points[i]);
     if (!state.scratch.forbidden.empty() && state.is_forbidden(x)) continue;
@@ -77,7 +79,7 @@ void smooth_tangentially(RemeshState& state, double factor) {
     if (!(n2 > 0)) continue;
     // dV/dx = area vector / 6: a step at right angles to it keeps the volume exactly.
     const Eigen::Vector3d step = factor * (m.to_centroid - m.area_vector * (m.area_vector.dot(m.to_centroid) / n2));
-    if (!is_safe(points, r, x, step)) continue;
+    if (!is_safe(points, r, x, step, m.area_vector)) continue;
     carry_attributes(state, points, v, r, x, step, m.area_vector);
     points[i] = to_point(x + step);
   }

@@ -110,7 +110,7 @@ TEST_F(FrameWriterTest, OldFramesGoAndNothingElse) {
                            "frame_00001.ply", "my_frame_0000.ply", "frame_0000.ply.bak", "notes.txt"})
     touch(name);
   FrameWriter writer(directory_);
-  EXPECT_EQ(names(), (std::vector<std::string>{"frame_00001.ply", "frame_0000.ply.bak", "frame_0001.stl", "frame_1.ply",
+  EXPECT_EQ(names(), (std::vector<std::string>{"frame_0000.ply.bak", "frame_00001.ply", "frame_0001.stl", "frame_1.ply",
                                                "measures.csv", "my_frame_0000.ply", "notes.txt"}));
 }
 

@@ -4,6 +4,7 @@
 #include "meniscus/geometry/self_intersection.h"
 #include "meniscus/geometry/shapes.h"
 
+#include <CGAL/intersections.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -129,7 +130,7 @@ TEST(Inspect, DegenerateFace) {
   data.triangles.pop_back();
   data.triangles.insert(data.triangles.end(), {{1, 4, 3}, {4, 2, 3}, {1, 2, 4}});
   const Inspection i = inspect(data);
-  EXPECT_EQ(kinds(i), Names{"degenerate_face"});
+  EXPECT_EQ(kinds(i), (Names{"degenerate_face", "self_intersection"}));  // the middle touches face 0, too
   EXPECT_EQ(i.defects[0].faces, Ids{5});
   EXPECT_TRUE(i.closed && i.manifold && i.outward);
   EXPECT_FALSE(i.sound);
@@ -312,6 +313,33 @@ TEST(Inspect, FoldedNeighbours) {
   EXPECT_EQ(self_intersections(fan, 10).size(), 1u);
 }
 
+/// A disc of slivers around its centre and the same seen from below: all boxes overlap, no face does.
+TEST(Inspect, FansOfSlivers) {
+  const std::uint32_t n = 400;
+  MeshData cone;
+  cone.points = {{0, 0, 0}, {0, 0, 1}};
+  for (std::uint32_t k = 0; k < n; ++k) {
+    cone.points.push_back({std::cos(2 * pi * k / n), std::sin(2 * pi * k / n), 0});
+    cone.triangles.push_back({0, 2 + (k + 1) % n, 2 + k});
+    cone.triangles.push_back({1, 2 + k, 2 + (k + 1) % n});
+  }
+  EXPECT_TRUE(inspect(cone).sound);
+  std::swap(cone.points[2], cone.points[3]);  // now slivers overlap
+  EXPECT_TRUE(inspect(cone).self_intersecting);
+}
+
+/// The quick answers never contradict the exact ones: triangles around one vertex, on a small lattice.
+RC_GTEST_PROP(Inspect, TrianglesAtAVertexMeetAsTheirSidesDo, ()) {
+  const auto lattice = [] { return double(*rc::gen::inRange(-2, 3)); };
+  MeshData data{{{0, 0, 0}}, {{0, 1, 2}, {0, 3, 4}}, {}, {}, {}};
+  for (int k = 0; k < 4; ++k) data.points.push_back({lattice(), lattice(), lattice()});
+  const auto at = [&](int v) { return Point(data.points[v][0], data.points[v][1], data.points[v][2]); };
+  RC_PRE(!CGAL::collinear(at(0), at(1), at(2)) && !CGAL::collinear(at(0), at(3), at(4)));
+  const bool meet = CGAL::do_intersect(Kernel::Triangle_3(at(0), at(1), at(2)), Kernel::Segment_3(at(3), at(4))) ||
+                    CGAL::do_intersect(Kernel::Triangle_3(at(0), at(3), at(4)), Kernel::Segment_3(at(1), at(2)));
+  RC_ASSERT(!self_intersections(data, 1).empty() == meet);
+}
+
 TEST(Inspect, HugeAndTinyCoordinates) {
   for (const double scale : {1e300, 1e-300}) {
     MeshData data = sphere(origin, 1);
@@ -324,6 +352,7 @@ TEST(Inspect, HugeAndTinyCoordinates) {
   MeshData spike = tetrahedron();
   spike.points[3] = {0, 0, 1e300};
   EXPECT_TRUE(inspect(spike).sound);
+  EXPECT_NEAR(inspect(spike).volume, 1e300 / 6, 1e286);
 }
 
 TEST(Inspect, FacesAsTheFileCountsThem) {

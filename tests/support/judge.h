@@ -44,7 +44,8 @@ inline std::string edges_defect(const Soup& soup) {
   std::vector<int> uses(soup.points.size(), 0);
   std::map<std::array<std::size_t, 3>, int> faces;
   for (auto t : soup.triangles) {
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return fmt::format("face with a vertex twice: {} {} {}", t[0], t[1], t[2]);
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+      return fmt::format("face with a vertex twice: {} {} {}", t[0], t[1], t[2]);
     for (int k = 0; k < 3; ++k) {
       ++directed[{t[k], t[(k + 1) % 3]}];
       ++uses[t[k]];
@@ -120,7 +121,8 @@ inline std::string topology_defect(const Mesh& mesh) {
   if (auto defect = edges_defect(soup); !defect.empty()) return defect;
   if (auto defect = fans_defect(soup); !defect.empty()) return defect;
   for (const auto& faces : components_of(soup))
-    if (!(volume_of(soup, faces) > 0)) return fmt::format("a component of {} faces has volume {}", faces.size(), volume_of(soup, faces));
+    if (!(volume_of(soup, faces) > 0))
+      return fmt::format("a component of {} faces has volume {}", faces.size(), volume_of(soup, faces));
   return {};
 }
 
@@ -154,7 +156,8 @@ inline std::string connectivity_defect(const Drop& drop) {
     if (start == a.degree) return fmt::format("vertex {}: other neighbours", v);
     for (int k = 0; k < b.degree; ++k) {
       const auto j = (start + k) % a.degree;
-      if (a.neighbour[j] != b.neighbour[k] || a.corner[j] != b.corner[k]) return fmt::format("vertex {}: rings differ", v);
+      if (a.neighbour[j] != b.neighbour[k] || a.corner[j] != b.corner[k])
+        return fmt::format("vertex {}: rings differ", v);
     }
     for (int k = a.degree <= Connectivity::width ? a.degree : 0; k < Connectivity::width; ++k)
       if (kept.neighbour_rows()[Connectivity::width * v + static_cast<std::size_t>(k)] != v)

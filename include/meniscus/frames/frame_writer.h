@@ -13,9 +13,9 @@ namespace meniscus {
 
 /// What a run writes beside its table of measures.
 struct FrameOptions {
-  bool meshes = true;                               ///< false: measures.csv only
+  bool meshes = true;                                ///< false: measures.csv only
   std::vector<MeshFormat> formats{MeshFormat::ply};  ///< of the frames' meshes: PLY, OFF, OBJ
-  double density = 1;                               ///< g/cm^3, for the momentum
+  double density = 1;                                ///< g/cm^3, for the momentum
 };
 
 /// The formats of a list like "ply,off,obj", PLY always first (it alone holds velocities), each once.

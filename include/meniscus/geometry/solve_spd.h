@@ -19,7 +19,7 @@ inline Eigen::Vector3d to_eigen(const Lanes& v) { return {v[0], v[1], v[2]}; }
 ///
 /// `automatic` takes, by a model of costs fitted to docs/charts/solver.csv, the incomplete Cholesky
 /// preconditioner where the diagonal jumps between neighbours (irregular meshes) and enough iterations
-/// are ahead to pay for it - about 25, or 65 where the pattern changed -, a complete factor where even
+/// are ahead to pay for it (about 30, or 80 where the pattern changed), a complete factor where even
 /// those would cost more (small meshes, far tighter tolerances), and the diagonal for all else; if
 /// conjugate gradients do not converge, it solves with a complete factor.
 enum class SolverMethod {
@@ -39,7 +39,7 @@ struct SolverOptions {
 /// failed before the first); its residual is infinite if something was not finite.
 struct SolveReport {
   bool converged = true;
-  int iterations = 0;            ///< 0 for a direct solve
+  int iterations = 0;            ///< of conjugate gradients; 0 for a direct solve alone
   double relative_residual = 0;  ///< in the norm of SolverOptions::tolerance: by recurrence, of a direct solve by A X
   SolverMethod method = SolverMethod::conjugate_gradient_jacobi;  ///< the one used, never `automatic`
 };

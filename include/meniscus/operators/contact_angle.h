@@ -18,6 +18,7 @@ struct ContactAngleOptions {
   ContactForce force = ContactForce::virtual_work;
   double boundary_force = 1;     ///< alpha of Eq 8, cm/s of contact line speed per radian and step
   double tension_over_mass = 0;  ///< virtual_work: c = 2 sigma/(rho R), cm^3/s^2 per cm of energy gradient
+  double line_friction_over_mass = 0;  ///< virtual_work: 2 xi/(rho R), cm/s, xi in g/(cm s) of contact line
 };
 
 struct ContactAngleReport {
@@ -29,8 +30,8 @@ struct ContactAngleReport {
 /// not at all between. Each solid brings its own two angles.
 ///
 /// measured_angle is the paper's. virtual_work measures theta by the derivative of the surface area
-/// and moves each line vertex by dt^2 c f / (M + c dt^2 L_ii), so that it is stable at any dt; a
-/// vertex between its two angles sticks to the solid.
+/// and pushes each line vertex by c f/M against friction, implicitly, so that it is stable at any dt; a
+/// vertex between its two angles sticks to the solid. The drop's pressure counts in the balance.
 ///
 /// Reads positions, `geometry` (lumped areas only: that of the step's start will do), contact state and `time` (for
 /// moving solids); writes positions and velocities of line vertices, never along the solid's normal.

@@ -17,7 +17,8 @@ struct VolumeCorrectionOptions {
   VolumeCorrectionMethod method = VolumeCorrectionMethod::global;
   LocalCorrection local = LocalCorrection::local_pressure;
   SolverOptions solver;  ///< of local_pressure
-  /// The most that one step may offset the surface (cm), > 0: what is left waits for the next.
+  /// The most that one step may offset the surface (cm), > 0, beyond what the last curvature flow
+  /// (Drop::displacements) took away: what is left waits for the next.
   double offset_limit = std::numeric_limits<double>::infinity();
 };
 

@@ -20,6 +20,7 @@ struct OscillationResult {
 };
 
 /// Runs `steps` steps of dt (s) from rest for R = 0.2 cm and measures.
-OscillationResult measure_oscillation(int frequency, double amplitude, double dt, int steps, const StepOptions& options);
+OscillationResult measure_oscillation(int frequency, double amplitude, double dt, int steps,
+                                      const StepOptions& options);
 
 }  // namespace meniscus

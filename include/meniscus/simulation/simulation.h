@@ -36,10 +36,10 @@ class Simulation {
 
   const std::vector<Drop>& drops() const { return drops_; }
   const std::vector<Solid>& solids() const { return solids_; }
-  double time() const { return time_; }             ///< s
+  double time() const { return time_; }                 ///< s
   std::size_t num_steps() const { return num_steps_; }  ///< taken so far
-  double volume() const;         ///< of all drops, cm^3
-  double target_volume() const;  ///< of all drops, cm^3
+  double volume() const;                                ///< of all drops, cm^3
+  double target_volume() const;                         ///< of all drops, cm^3
   /// For stage times: see StepOptions::clock.
   void set_clock(double (*clock)()) { options_.clock = clock; }
 

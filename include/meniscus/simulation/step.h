@@ -12,7 +12,16 @@
 namespace meniscus {
 
 /// The stages of a step, in the order of the paper's Figure 1.
-enum class Stage { external_forces, geometry, damping, curvature_flow, contact_angle, volume_correction, remesh, split };
+enum class Stage {
+  external_forces,
+  geometry,
+  damping,
+  curvature_flow,
+  contact_angle,
+  volume_correction,
+  remesh,
+  split
+};
 inline constexpr std::size_t num_stages = 8;
 const char* stage_name(Stage stage);  ///< "external_forces", ...
 
@@ -39,6 +48,7 @@ struct StepReport {
   std::size_t cuts = 0;                            ///< necks cut
   std::size_t deleted = 0;                         ///< pieces too small to go on as drops
   std::size_t limited_volume = 0;                  ///< volume corrections cut to their limit
+  int substeps = 0;                                ///< most of any drop
   int solver_iterations = 0;                       ///< most of any drop
   double worst_volume_error = 0;                   ///< largest |V - V_target| / V_target before topology changed
 
@@ -48,9 +58,10 @@ struct StepReport {
 /// One step of one drop, from time - dt to time (s): the paper's Figure 1 from external forces to
 /// mesh split. The drop is replaced by its pieces: usually one, more if it pinched off, none if it
 /// was too small to go on.
+/// It is cut into equal substeps where one would be too long: see docs/MODELS.md.
 /// `remesher` keeps working arrays from call to call: one a thread.
 /// Throws NumericsError if a solve does not converge or a number is no longer finite.
-std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt, const StepOptions& options,
-                            Remesher& remesher, StepReport& report);
+std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt,
+                            const StepOptions& options, Remesher& remesher, StepReport& report);
 
 }  // namespace meniscus

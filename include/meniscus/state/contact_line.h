@@ -13,6 +13,7 @@ struct ContactLineVertex {
   double length;            ///< cm of contact line that belongs to the vertex: |grad A_wet|
   double angle;             ///< theta from the mean normal n_L of the water-air faces, through the liquid
   double energy_cosine;     ///< cos(theta) by virtual work: grad A_air . outward / length
+  double volume_gradient;   ///< the volume's derivative for a move along `outward`, cm^2
   double stiffness;         ///< L_ii of the water-air faces alone: the growth of the force with the move
 };
 

@@ -1,20 +1,119 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// DRAFT by the lead so that the operators compile: helper "inspect" owns this file and replaces it (same names).
 #pragma once
-#include "meniscus/core/types.h"
+
+#include "meniscus/core/mesh_data.h"
+
 #include <Eigen/Geometry>
+
+#include <memory>
 #include <string>
+#include <variant>
 #include <vector>
+
 namespace meniscus {
-struct SolidContact { double distance; Eigen::Vector3d point, normal; };
+
+/// Where a solid is in respect to a point.
+struct SolidContact {
+  double distance;         ///< cm to the solid's surface; negative inside the solid
+  Eigen::Vector3d point;   ///< the nearest point of the surface
+  Eigen::Vector3d normal;  ///< the solid's outward unit normal there: the gradient of the distance
+};
+
+class TriangleMeshDistance;
+
+/// A solid that drops touch: its shape, how it moves (translations only) and how liquid clings to it.
+///
+/// Where the nearest point or the normal is not unique, the choice is fixed: a face before others
+/// by the order of axes (box), the side before the ends (cylinder), any one direction at the centre
+/// (sphere) or on the axis (cylinder, capsule). At an edge or corner the normal points from the
+/// nearest point to x, if x is outside. All queries are const and may run in parallel.
 class Solid {
  public:
-  static Solid plane(const Eigen::Vector3d& p, const Eigen::Vector3d& n) { Solid s; s.p_ = p; s.n_ = n.normalized(); return s; }
-  SolidContact query(const Eigen::Vector3d& x, double) const { double d = (x - p_).dot(n_); return {d, x - d * n_, n_}; }
-  Eigen::Vector3d velocity(double) const { return Eigen::Vector3d::Zero(); }
-  bool is_near(const Eigen::AlignedBox3d& box, double, double margin) const { for (int k = 0; k < 8; ++k) if ((box.corner((Eigen::AlignedBox3d::CornerType)k) - p_).dot(n_) <= margin) return true; return false; }
-  std::string name;
-  double advancing_angle = 1.5707963267948966, receding_angle = 1.5707963267948966, friction_speed = 0.1;
-  Eigen::Vector3d p_, n_;
+  /// A position of the solid, as an offset from where its shape says (cm), at a time (s).
+  struct Key {
+    double time;
+    Eigen::Vector3d position;
+  };
+
+  // Shapes. They throw UsageError for numbers that are not finite, sizes that are not positive, a zero
+  // normal and a cylinder or capsule without length.
+
+  /// The half space on the other side of `normal` (any length > 0).
+  static Solid plane(const Eigen::Vector3d& point, const Eigen::Vector3d& normal);
+  static Solid sphere(const Eigen::Vector3d& center, double radius);
+  /// `size` is that of the whole box; `rotation` turns it about its centre.
+  static Solid box(const Eigen::Vector3d& center, const Eigen::Vector3d& size,
+                   const Eigen::Matrix3d& rotation = Eigen::Matrix3d::Identity());
+  /// From a to b, with flat ends.
+  static Solid cylinder(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius);
+  /// From a to b, with half balls beyond both.
+  static Solid capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius);
+  /// A mesh that bounds a volume (see Inspection); throws GeometryError otherwise. The sign is that
+  /// of the angle-weighted normal of the nearest face, edge or vertex (Baerentzen and Aanaes 2005).
+  static Solid mesh(const MeshData& data);
+
+  /// Moves it at constant velocity (cm/s), from where its shape says at time 0.
+  /// Throws UsageError if it is not finite.
+  void set_velocity(const Eigen::Vector3d& velocity);
+  /// Moves it along keys, straight between them, at rest before the first and after the last.
+  /// Throws UsageError unless they are finite and times strictly increase. No keys: at rest.
+  void set_keys(std::vector<Key> keys);
+
+  /// The distance, nearest point and normal at x at a time (s).
+  SolidContact query(const Eigen::Vector3d& x, double time) const;
+
+  /// Its velocity (cm/s) at a time; at a key, that of the way to it.
+  Eigen::Vector3d velocity(double time) const;
+
+  /// Its offset from where its shape says (cm).
+  Eigen::Vector3d offset(double time) const;
+
+  /// Whether anything in the box may be within `margin` (cm) of the solid or inside it: a fast test
+  /// that misses nothing but rounding. A box of one point will do, an empty one is near nothing.
+  bool is_near(const Eigen::AlignedBox3d& box, double time, double margin) const;
+
+  std::string name;                              ///< may be empty
+  double advancing_angle = 1.57079632679489662;  ///< theta_a, radians, through the liquid
+  double receding_angle = 1.57079632679489662;   ///< theta_r, radians, at most theta_a
+  double friction_speed = 0.1;                   ///< epsilon of Eq 2, cm/s
+
+ private:
+  struct Plane {
+    Eigen::Vector3d point, normal;
+  };
+  struct Sphere {
+    Eigen::Vector3d center;
+    double radius;
+  };
+  struct Box {
+    Eigen::Vector3d center, half_size;
+    Eigen::Matrix3d rotation;  // from the box' axes to ours
+  };
+  struct Cylinder {
+    Eigen::Vector3d start, axis;  // unit
+    double length, radius;
+  };
+  struct Capsule {
+    Eigen::Vector3d start, axis;
+    double length, radius;
+  };
+  struct TriangleMesh {
+    std::shared_ptr<const TriangleMeshDistance> distance;
+  };
+  using Shape = std::variant<Plane, Sphere, Box, Cylinder, Capsule, TriangleMesh>;
+
+  explicit Solid(Shape shape) : shape_(std::move(shape)) {}
+  static SolidContact contact(const Plane& plane, const Eigen::Vector3d& x);
+  static SolidContact contact(const Sphere& sphere, const Eigen::Vector3d& x);
+  static SolidContact contact(const Box& box, const Eigen::Vector3d& x);
+  static SolidContact contact(const Cylinder& cylinder, const Eigen::Vector3d& x);
+  static SolidContact contact(const Capsule& capsule, const Eigen::Vector3d& x);
+  static SolidContact contact(const TriangleMesh& mesh, const Eigen::Vector3d& x);
+
+  Shape shape_;
+  Eigen::AlignedBox3d bounds_;  // at offset 0; empty for a plane
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+  std::vector<Key> keys_;
 };
-}
+
+}  // namespace meniscus

@@ -24,20 +24,21 @@ struct RemeshOptions {
 
 /// Why an edge stayed out of the band: one entry an edge.
 struct RefusedEdges {
-  std::size_t link_condition = 0;   ///< a 3-cycle that is no face, and no cut was possible
-  std::size_t would_invert = 0;     ///< a face's normal would turn too far or two faces would fold together
-  std::size_t would_be_sliver = 0;  ///< a face would have next to no area
-  std::size_t would_be_long = 0;    ///< an edge would be longer than edge_max
-  std::size_t valence = 0;          ///< a vertex would have fewer than 3 or too many neighbours
-  std::size_t feature = 0;          ///< a sharp edge or corner would be lost
-  std::size_t contact_line = 0;     ///< the contact line would be pinched
+  std::size_t link_condition = 0;     ///< a 3-cycle that is no face, and no cut was possible
+  std::size_t would_invert = 0;       ///< a face's normal would turn too far or two faces would fold together
+  std::size_t would_be_sliver = 0;    ///< a face would have next to no area
+  std::size_t would_be_long = 0;      ///< an edge would be longer than edge_max
+  std::size_t valence = 0;            ///< a vertex would have fewer than 3 or too many neighbours
+  std::size_t feature = 0;            ///< a sharp edge or corner would be lost
+  std::size_t contact_line = 0;       ///< the contact line would be pinched
   std::size_t near_intersection = 0;  ///< remesh_to_band keeps away from where the surface met itself
 };
 
 /// What remesh did. After it, splits + collapses + flips + cuts == 0 means that the mesh is as it was.
 struct RemeshReport {
   std::size_t splits = 0, collapses = 0, flips = 0;
-  std::size_t cuts = 0;  ///< necks cut and capped; split_components tells whether the drop fell apart
+  std::size_t cuts = 0;     ///< necks cut and capped; split_components tells whether the drop fell apart
+  std::size_t deleted = 0;  ///< remesh_to_band only: tetrahedra and inside-out specks that cuts left
   int passes = 0;
   int retries = 0;  ///< remesh_to_band only: runs thrown away because the surface met itself
   std::size_t edges_below = 0, edges_above = 0;  ///< edges left out of the band
@@ -89,7 +90,8 @@ RemeshReport remesh(Drop& drop, const RemeshOptions& options);
 
 /// For meshes from files: as remesh, with as many sweeps of tangential smoothing and flips as the
 /// options ask, then a check that the surface meets itself nowhere that it did not before. Where it
-/// would, it starts again and leaves those places alone, at most `max_retries` times.
+/// would, it starts again and leaves those places alone, at most `max_retries` times. Components of
+/// one tetrahedron, or inside out, that cuts made are deleted (after remesh, split_components does it).
 /// Throws UsageError as check_options does and for a band that needs more than max_faces faces;
 /// GeometryError ("refused: ...") with the faces at fault when the retries are used up; the drop is
 /// then as it was.

@@ -13,7 +13,8 @@ namespace meniscus {
 /// of greatest weight. Edges whose faces' normals differ by more than `feature_angle` (radians) are kept.
 /// Throws UsageError for a target or iterations that are not positive, or a target that needs more
 /// than 50 million faces; GeometryError if the mesh has no faces or is not triangular.
-void remesh_isotropic(Mesh& mesh, double target_edge, int iterations, std::optional<double> feature_angle = std::nullopt);
+void remesh_isotropic(Mesh& mesh, double target_edge, int iterations,
+                      std::optional<double> feature_angle = std::nullopt);
 
 /// Faces of an equilateral mesh of that edge and area; for checks against the 50 million limit.
 double estimated_faces(double area, double edge);

@@ -12,10 +12,10 @@ namespace meniscus {
 /// target volumes, unless no piece was left.
 struct SplitReport {
   std::size_t pieces = 0;
-  std::size_t deleted = 0;          ///< components of one tetrahedron (Section 5.2)
-  std::size_t deleted_empty = 0;    ///< components that enclosed no positive volume
-  double volume_deleted = 0;        ///< what the tetrahedra enclosed
-  double volume_shared = 0;         ///< old target volume less what the pieces enclose; shared among them
+  std::size_t deleted = 0;        ///< components of one tetrahedron (Section 5.2)
+  std::size_t deleted_empty = 0;  ///< components that enclosed no positive volume
+  double volume_deleted = 0;      ///< what the tetrahedra enclosed
+  double volume_shared = 0;       ///< old target volume less what the pieces enclose; shared among them
 };
 
 /// Each connected component becomes a drop of its own, in the order of smallest old vertex index,

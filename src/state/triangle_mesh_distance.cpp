@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "triangle_mesh_distance.h"
+
+#include "meniscus/core/error.h"
+#include "meniscus/geometry/inspect.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Simple_cartesian.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace meniscus {
+namespace {
+
+using Eigen::Vector3d;
+using TreeKernel = CGAL::Simple_cartesian<double>;  // distances need no exact predicates
+using TreeTriangles = std::vector<TreeKernel::Triangle_3>;
+using TreePrimitive = CGAL::AABB_triangle_primitive<TreeKernel, TreeTriangles::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<TreeKernel, TreePrimitive>>;
+
+TreeKernel::Point_3 tree_point(const Vector3d& x) { return {x.x(), x.y(), x.z()}; }
+
+/// Where on a triangle a point is: 0-2 at that corner, 3-5 on the side from corner k - 3 to the next, 6 inside.
+struct TrianglePoint {
+  Vector3d point;
+  int feature;
+};
+constexpr int on_face = 6;
+
+/// The point of triangle p nearest to x: within a side's or a corner's region if the plane's point
+/// lies outside, after the signs of the barycentric coordinates and of the sides' parameters.
+TrianglePoint nearest_on_triangle(const std::array<Vector3d, 3>& p, const Vector3d& x) {
+  const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
+  const double square = normal.squaredNorm();
+  bool inside = square > 0;
+  for (int k = 0; k < 3 && inside; ++k) inside = normal.dot((p[(k + 1) % 3] - p[k]).cross(x - p[k])) > 0;
+  if (inside) return {x - normal * (normal.dot(x - p[0]) / square), on_face};
+  TrianglePoint best{p[0], 0};
+  double least = (x - p[0]).squaredNorm();
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d side = p[(k + 1) % 3] - p[k];
+    const double length = side.squaredNorm(), along = (x - p[k]).dot(side);
+    TrianglePoint candidate{p[k], k};
+    if (along >= length)
+      candidate = {p[(k + 1) % 3], (k + 1) % 3};
+    else if (along > 0)
+      candidate = {p[k] + side * (along / length), 3 + k};
+    const double distance = (x - candidate.point).squaredNorm();
+    if (distance < least) least = distance, best = candidate;
+  }
+  return best;
+}
+
+void check_mesh(const MeshData& data) {
+  const Inspection inspection = inspect(data);
+  if (inspection.bounds_volume) return;
+  for (const auto& defect : inspection.defects)
+    if (defect.kind != DefectKind::isolated_vertex && defect.kind != DefectKind::degenerate_face)
+      throw GeometryError(
+          fmt::format("a solid's mesh must bound a volume, but: {} ({})", defect.message, name(defect.kind)),
+          defect.faces, defect.vertices);
+  throw GeometryError("a solid's mesh must bound a volume");
+}
+
+}  // namespace
+
+struct TriangleMeshDistance::Parts {
+  explicit Parts(const MeshData& data) {
+    for (const auto& p : data.points) points.push_back(Vector3d::Map(p.data()));
+    triangles = data.triangles;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const auto p = corners(t);
+      for (const auto& x : p) box.extend(x);
+      tree_triangles.emplace_back(tree_point(p[0]), tree_point(p[1]), tree_point(p[2]));
+    }
+    add_normals();
+    tree.insert(tree_triangles.begin(), tree_triangles.end());
+    tree.build();
+    tree.accelerate_distance_queries();
+  }
+
+  std::array<Vector3d, 3> corners(std::size_t t) const {
+    return {points[triangles[t][0]], points[triangles[t][1]], points[triangles[t][2]]};
+  }
+
+  /// Face normals; their sum at an edge; their sum weighted by the angle at a vertex. Only the
+  /// direction counts. Faces without area have no say.
+  void add_normals() {
+    std::vector<Vector3d> vertex_normal(points.size(), Vector3d::Zero());
+    std::map<std::array<std::uint32_t, 2>, Vector3d> edge_normal;
+    const auto edge = [&](std::size_t t, int k) -> Vector3d& {
+      const std::uint32_t a = triangles[t][k], b = triangles[t][(k + 1) % 3];
+      return edge_normal.try_emplace({std::min(a, b), std::max(a, b)}, Vector3d::Zero()).first->second;
+    };
+    normals.resize(triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const auto p = corners(t);
+      const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]).stableNormalized();
+      normals[t][on_face] = normal;
+      for (int k = 0; k < 3; ++k) {
+        const Vector3d u = p[(k + 1) % 3] - p[k], w = p[(k + 2) % 3] - p[k];
+        vertex_normal[triangles[t][k]] += std::atan2(u.cross(w).norm(), u.dot(w)) * normal;
+        edge(t, k) += normal;
+      }
+    }
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        normals[t][k] = vertex_normal[triangles[t][k]].stableNormalized();
+        normals[t][3 + k] = edge(t, k).stableNormalized();
+      }
+  }
+
+  std::vector<Vector3d> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<Vector3d, 7>> normals;  ///< of each triangle's corners, sides and face
+  Eigen::AlignedBox3d box;
+  TreeTriangles tree_triangles;
+  Tree tree;
+};
+
+TriangleMeshDistance::TriangleMeshDistance(const MeshData& data) {
+  check_mesh(data);
+  parts_ = std::make_unique<const Parts>(data);
+}
+
+TriangleMeshDistance::~TriangleMeshDistance() = default;
+
+const Eigen::AlignedBox3d& TriangleMeshDistance::bounds() const { return parts_->box; }
+
+SolidContact TriangleMeshDistance::query(const Vector3d& x) const {
+  const auto found = parts_->tree.closest_point_and_primitive(tree_point(x)).second;
+  const auto t = static_cast<std::size_t>(found - parts_->tree_triangles.begin());
+  const TrianglePoint nearest = nearest_on_triangle(parts_->corners(t), x);
+  const Vector3d& pseudonormal = parts_->normals[t][nearest.feature];
+  const Vector3d away = x - nearest.point;
+  const double distance = away.norm();
+  const double side = away.dot(pseudonormal) < 0 ? -1 : 1;
+  // At corners and sides the gradient is the direction itself, unless it is but rounding.
+  const bool is_reliable = distance > 1e-9 * (x.cwiseAbs().maxCoeff() + parts_->box.sizes().maxCoeff());
+  const bool use_direction = nearest.feature != on_face && is_reliable;
+  return {side * distance, nearest.point, use_direction ? Vector3d(side / distance * away) : pseudonormal};
+}
+
+}  // namespace meniscus

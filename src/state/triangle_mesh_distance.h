@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meniscus/state/solid.h"
+
+namespace meniscus {
+
+/// The signed distance to a closed mesh: an AABB tree for the nearest triangle, angle-weighted normals
+/// of its corner, side or face for the sign. All structures are built up front; queries share them.
+class TriangleMeshDistance {
+ public:
+  /// Throws GeometryError unless the mesh bounds a volume.
+  explicit TriangleMeshDistance(const MeshData& data);
+  ~TriangleMeshDistance();
+
+  SolidContact query(const Eigen::Vector3d& x) const;
+  const Eigen::AlignedBox3d& bounds() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<const Parts> parts_;
+};
+
+}  // namespace meniscus

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tool_test.h"
+
+#include "meniscus/core/version.h"
+
+namespace meniscus {
+namespace {
+
+using CommandLine = ToolTest;
+
+const std::vector<std::string> verbs{"check", "convert", "remesh", "split", "flow", "evolve", "schema", "bench"};
+
+TEST_F(CommandLine, VersionIsTheLibrarys) {
+  const Outcome outcome = tool("--version");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out, "meniscus " + version() + "\n");
+}
+
+TEST_F(CommandLine, HelpListsTheVerbs) {
+  const Outcome outcome = tool("--help");
+  EXPECT_EQ(outcome.code, 0);
+  for (const std::string& verb : verbs) EXPECT_TRUE(has(outcome.out, verb)) << verb;
+}
+
+TEST_F(CommandLine, HelpOfEachVerbOpensWithTwoExamples) {
+  for (const std::string& verb : verbs) {
+    const Outcome outcome = tool(verb + " --help");
+    EXPECT_EQ(outcome.code, 0) << verb;
+    EXPECT_EQ(outcome.out.rfind("Examples:\n  ", 0), 0u) << verb;
+    const std::string examples = outcome.out.substr(0, outcome.out.find("\n\n"));
+    EXPECT_EQ(std::count(examples.begin(), examples.end(), '\n'), 2) << verb;
+    for (const char* option : {"--json", "--threads", "--quiet", "--verbose"})
+      EXPECT_TRUE(has(outcome.out, option)) << verb;
+  }
+}
+
+TEST_F(CommandLine, UnknownVerbIsAnsweredWithTheNearest) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"chekc", "check"}, {"evlove", "evolve"}, {"remsh", "remesh"}, {"spilt", "split"}, {"mrege", "merge"}};
+  for (const auto& [wrong, right] : cases) {
+    const Outcome outcome = tool(std::string(wrong) + " a.ply");
+    EXPECT_EQ(outcome.code, 2) << wrong;
+    EXPECT_TRUE(has(outcome.err, "did you mean \"" + std::string(right) + "\"")) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
+TEST_F(CommandLine, UnknownFlagIsAnsweredWithTheNearest) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"remesh a.ply -o b.ply --egde-min 1", "--edge-min"}, {"remesh a.ply --ouput b.ply --edge 1", "--output"},
+      {"flow a.ply -o b.ply --gama 1 --dt 1", "--gamma"},   {"check --jsn - a.ply", "--json"},
+      {"evolve a.json -o out --dryrun", "--dry-run"},       {"split a.ply -o 'b_{}.ply' --nek=2", "--neck"}};
+  for (const auto& [arguments, right] : cases) {
+    const Outcome outcome = tool(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments;
+    EXPECT_TRUE(has(outcome.err, "did you mean \"" + std::string(right) + "\"")) << arguments << "\n" << outcome.err;
+  }
+}
+
+TEST_F(CommandLine, WhatIsMissingOrTooMuchIsAUsageError) {
+  write("a.ply", sphere());
+  for (const char* arguments :
+       {"", "check", "convert a.ply", "remesh a.ply", "remesh a.ply -o b.ply", "remesh a.ply -o b.ply --edge-min 1",
+        "remesh a.ply -o b.ply --edge 0.1 --edge-max 1", "flow a.ply -o b.ply --gamma 1", "evolve -o out",
+        "evolve a.ply", "split a.ply", "split a.ply -o b.ply", "convert a.ply b.ply c.ply", "check --threads 0 a.ply",
+        "check --threads x a.ply", "remesh a.ply -o b.ply --edge 0.1 --method best", "--wrong"}) {
+    const Outcome outcome = tool(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments << "\n" << outcome.err;
+    EXPECT_EQ(outcome.err.rfind("error: ", 0), 0u) << arguments << "\n" << outcome.err;
+  }
+  EXPECT_EQ(names(), (std::vector<std::string>{"a.ply"}));
+}
+
+TEST_F(CommandLine, NumbersMustBeFiniteAndPositive) {
+  write("a.ply", sphere());
+  for (const char* number : {"0", "-1", "nan", "inf", "1e999", "x", "0.1cm", "''"}) {
+    const Outcome outcome = tool(std::string("remesh a.ply -o b.ply --edge ") + number);
+    EXPECT_EQ(outcome.code, 2) << number;
+    EXPECT_TRUE(has(outcome.err, "--edge")) << outcome.err;
+  }
+}
+
+TEST_F(CommandLine, WhatComesLaterSaysSo) {
+  write("a.ply", sphere());
+  for (const char* arguments :
+       {"merge a.ply b.ply -o c.ply", "view out --html x.html", "split a.ply -o 'b_{}.ply' --plane 0,0,1,0",
+        "split a.ply -o 'b_{}.ply' --cutter a.ply", "evolve a.ply -o out --resume"}) {
+    const Outcome outcome = tool(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments;
+    EXPECT_TRUE(has(outcome.err, "later version")) << arguments << "\n" << outcome.err;
+  }
+  const Outcome frames = tool("evolve a.ply -o out --frames-as vtp");
+  EXPECT_EQ(frames.code, 2);
+  EXPECT_TRUE(has(frames.err, "not available in this version")) << frames.err;
+  EXPECT_EQ(names(), (std::vector<std::string>{"a.ply"}));
+}
+
+TEST_F(CommandLine, SchemaIsJsonAndBenchSaysWhereBenchmarksAre) {
+  const Outcome schema = tool("schema");
+  EXPECT_EQ(schema.code, 0);
+  EXPECT_TRUE(json::parse(schema.out).contains("properties"));
+  const Outcome bench = tool("bench");
+  EXPECT_EQ(bench.code, 0);
+  EXPECT_TRUE(has(bench.out, "bench/"));
+  EXPECT_EQ(tool("bench solver").code, 2);
+}
+
+TEST_F(CommandLine, BrokenPipeIsQuiet) {
+  write("big.ply", make_icosphere({0, 0, 0}, 1, 40));
+  const Outcome outcome = shell("\"$MENISCUS\" convert big.ply - --format off | head -c 1 > logs/head");
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.code, 0);
+}
+
+TEST_F(CommandLine, FullDiskIsAFileErrorThatNamesTheFile) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  write("a.ply", sphere());
+  const Outcome outcome = shell("\"$MENISCUS\" schema > /dev/full");
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_TRUE(has(outcome.err, "stdout")) << outcome.err;
+}
+
+}  // namespace
+}  // namespace meniscus

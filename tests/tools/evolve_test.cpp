@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tool_test.h"
+
+#include <csignal>
+#include <sstream>
+
+namespace meniscus {
+namespace {
+
+/// A drop that falls onto a plate within a few steps.
+constexpr const char* splash = R"({
+  // a comment
+  "time_step": 0.001, "frames": 3, "steps_per_frame": 4,
+  "mesh": { "edge_min": 0.04, "edge_max": 0.12 },
+  "solids": [ { "name": "plate", "shape": "plane", "point": [0,0,0], "normal": [0,0,1],
+                "advancing_angle_deg": 70, "receding_angle_deg": 50 } ],
+  "drops": [ { "shape": "sphere", "center": [0,0,0.21], "radius": 0.2, "velocity": [0,0,-20] },
+             { "shape": "sphere", "center": [2,0,0.5], "radius": 0.1 } ]
+})";
+
+class Evolve : public ToolTest {
+ protected:
+  void SetUp() override {
+    ToolTest::SetUp();
+    write("splash.json", splash);
+  }
+};
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+void expect_run_fields(const json& r) {
+  for (const char* field :
+       {"scene", "steps", "frames", "simulated_seconds", "wall_seconds", "cpu_seconds", "threads", "triangles",
+        "triangle_steps_per_second", "step_ms", "stage_ms", "counts", "volume", "drops"})
+    EXPECT_TRUE(r.contains(field)) << field;
+  for (const char* field : {"mean", "max"}) EXPECT_TRUE(r["triangles"][field].is_number()) << field;
+  for (const char* field : {"p50", "p99", "max"}) EXPECT_TRUE(r["step_ms"][field].is_number()) << field;
+  for (const char* field : {"merges", "splits", "deleted", "retries", "refused"})
+    EXPECT_TRUE(r["counts"][field].is_number()) << field;
+  for (const char* field : {"initial", "added", "final", "worst_relative_error"})
+    EXPECT_TRUE(r["volume"][field].is_number()) << field;
+  for (const char* field : {"external_forces", "damping", "curvature_flow", "volume_correction", "remesh"})
+    EXPECT_TRUE(r["stage_ms"][field].is_number()) << field;
+}
+
+TEST_F(Evolve, SceneGivesFramesMeasuresAndASummary) {
+  const Outcome outcome = tool("evolve splash.json -o out --json report.json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(names("out"), (std::vector<std::string>{"frame_0000.ply", "frame_0001.ply", "frame_0002.ply",
+                                                    "frame_0003.ply", "measures.csv", "run.json"}));
+  EXPECT_EQ(lines_of(text("out/measures.csv")).size(), 1u + 4 * 2);
+  const json r = report("report.json"), run = report("out/run.json");
+  expect_run_fields(r);
+  expect_run_fields(run);
+  EXPECT_EQ(r["steps"], 12);
+  EXPECT_EQ(r["frames"], 4);
+  EXPECT_EQ(r["drops"], 2);
+  EXPECT_NEAR(r["simulated_seconds"].get<double>(), 0.012, 1e-15);
+  EXPECT_LT(r["volume"]["worst_relative_error"].get<double>(), 0.02);
+  EXPECT_GT(r["step_ms"]["max"].get<double>(), 0);
+  EXPECT_TRUE(run.contains("version"));
+  EXPECT_EQ(run["resolved_scene"]["liquid"]["surface_tension"], 72);
+  const MeshData last = mesh("out/frame_0003.ply");
+  for (const char* name : {"vx", "vy", "vz", "drop", "contact"}) ASSERT_NE(last.attribute(name), nullptr) << name;
+  EXPECT_EQ(last.comments[0].rfind("time 0.012", 0), 0u) << last.comments[0];
+  const auto& contact = last.attribute("contact")->values;
+  EXPECT_GT(std::count(contact.begin(), contact.end(), 2), 0) << "the drop has touched the plate";
+  EXPECT_EQ(tool("check out/frame_0000.ply out/frame_0003.ply").code, 0);
+}
+
+TEST_F(Evolve, FramesAreTheSameOnOneThreadAndTwo) {
+  ASSERT_EQ(tool("evolve splash.json -o one --threads 1").code, 0);
+  ASSERT_EQ(tool("evolve splash.json -o two --threads 2").code, 0);
+  EXPECT_EQ(report("one/run.json")["threads"], 1);
+  for (const std::string& name : names("one")) {
+    if (name == "run.json") continue;  // it tells of seconds
+    EXPECT_EQ(text("one/" + name), text("two/" + name)) << name;
+  }
+}
+
+TEST_F(Evolve, StepsFramesAndSettingsOverrideTheScene) {
+  ASSERT_EQ(tool("evolve splash.json -o a --steps 6").code, 0);
+  EXPECT_EQ(report("a/run.json")["steps"], 6);
+  EXPECT_EQ(report("a/run.json")["frames"], 3) << "0, 4 and the last";
+  EXPECT_EQ(tool("evolve splash.json -o b --frames 1 --set steps_per_frame=2 --set liquid.density=1.5").code, 0);
+  EXPECT_EQ(report("b/run.json")["steps"], 2);
+  EXPECT_EQ(report("b/run.json")["resolved_scene"]["liquid"]["density"], 1.5);
+  EXPECT_EQ(tool("evolve splash.json -o c --frames 1 --steps 1").code, 2);
+  ASSERT_EQ(tool("evolve splash.json -o d --steps 0 --no-frames").code, 0);
+  EXPECT_EQ(names("d"), (std::vector<std::string>{"measures.csv", "run.json"}));
+}
+
+TEST_F(Evolve, NegativeGravityIsNoFlag) {
+  write("a.ply", sphere());
+  ASSERT_EQ(tool("evolve a.ply -o out --steps 1 --gravity -981,0,0 --time-step 0.001").code, 0);
+  const json g = report("out/run.json")["resolved_scene"]["gravity"];
+  EXPECT_EQ(g, json({-981, 0, 0}));
+  for (const char* bad : {"1,2", "1,2,3,4", "a,b,c", "1,,2", "nan,0,0"})
+    EXPECT_EQ(tool(std::string("evolve a.ply -o out --gravity ") + bad).code, 2) << bad;
+}
+
+TEST_F(Evolve, DryRunWritesNothing) {
+  const Outcome outcome = tool("evolve splash.json -o out --dry-run");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(has(outcome.out, "12 steps")) << outcome.out;
+  EXPECT_EQ(names(), (std::vector<std::string>{"splash.json"}));
+}
+
+TEST_F(Evolve, MeshesFallFreelyFromFileToFile) {
+  write("a.ply", make_sphere({0, 0, 1}, 0.2, 0.08));
+  write("b.off", make_sphere({1, 0, 1}, 0.1, 0.04));
+  ASSERT_EQ(tool("evolve a.ply b.off -o one --steps 4 --time-step 0.001").code, 0);
+  ASSERT_EQ(tool("evolve one/frame_0001.ply -o two --steps 4 --time-step 0.001").code, 0);
+  EXPECT_EQ(report("two/run.json")["drops"], 2);
+  const std::vector<std::string> rows = lines_of(text("two/measures.csv"));
+  ASSERT_EQ(rows.size(), 5u);
+  std::vector<double> fields;
+  std::istringstream row(rows[3]);
+  for (std::string field; std::getline(row, field, ',');) fields.push_back(field.empty() ? 0 : std::stod(field));
+  EXPECT_NEAR(fields[8], 1 - 8 * 9 / 2 * 981 * 1e-6, 1e-4) << "centroid_z = z0 - n (n + 1)/2 g dt^2";
+}
+
+TEST_F(Evolve, FramesAsOtherFormatsLieBesideThePly) {
+  ASSERT_EQ(tool("evolve splash.json -o out --frames 1 --frames-as off,obj").code, 0);
+  EXPECT_EQ(names("out"),
+            (std::vector<std::string>{"frame_0000.obj", "frame_0000.off", "frame_0000.ply", "frame_0001.obj",
+                                      "frame_0001.off", "frame_0001.ply", "measures.csv", "run.json"}));
+  EXPECT_EQ(mesh("out/frame_0001.off").points, mesh("out/frame_0001.ply").points);
+}
+
+TEST_F(Evolve, AnOlderRunsFramesGoAndWhatARunStartsFromStays) {
+  ASSERT_EQ(tool("evolve splash.json -o out --frames 3").code, 0);
+  ASSERT_EQ(tool("evolve splash.json -o out --frames 1").code, 0);
+  EXPECT_FALSE(fs::exists(path("out/frame_0002.ply")));
+  const Outcome outcome = tool("evolve out/frame_0001.ply -o out --steps 1");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(has(outcome.err, "frame_0001.ply")) << outcome.err;
+  EXPECT_TRUE(fs::exists(path("out/frame_0001.ply")));
+}
+
+TEST_F(Evolve, MeshOnStdinIsADrop) {
+  write("a.stl", make_sphere({0, 0, 1}, 0.2, 0.08));
+  const Outcome outcome = shell("cat a.stl | \"$MENISCUS\" evolve - --format stl -o out --steps 1");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(report("out/run.json")["drops"], 1);
+}
+
+TEST_F(Evolve, AllThatIsWrongWithASceneIsSaidAtOnce) {
+  write("bad.json",
+        "{\n  \"time_step\": -1,\n  \"farmes\": 3,\n  \"drops\": [ { \"raduis\": 0.1 } ],\n  \"gravity\": \"x\"\n}\n");
+  const Outcome outcome = tool("evolve bad.json -o out");
+  EXPECT_EQ(outcome.code, 2);
+  for (const char* part : {"bad.json:2:", "bad.json:3:", "bad.json:4:", "bad.json:5:", "did you mean \"frames\"",
+                           "did you mean \"radius\""})
+    EXPECT_TRUE(has(outcome.err, part)) << part << "\n" << outcome.err;
+  EXPECT_FALSE(fs::exists(path("out")));
+  EXPECT_EQ(tool("evolve splash.json -o out --set drops.0.radius=-1").code, 2);
+  EXPECT_EQ(tool("evolve splash.json splash.json -o out").code, 2);
+}
+
+TEST_F(Evolve, FilesThatCannotBeReadOrTakenHaveTheirExitCodes) {
+  write_mesh(path("open.ply"), open_sphere());
+  write("text", "");
+  EXPECT_EQ(tool("evolve missing.json -o out").code, 3);
+  EXPECT_EQ(tool("evolve missing.ply -o out").code, 3);
+  EXPECT_EQ(tool("evolve splash.xyz -o out").code, 2);
+  const Outcome open = tool("evolve open.ply -o out");
+  EXPECT_EQ(open.code, 4);
+  EXPECT_TRUE(has(open.err, "open.ply")) << open.err;
+  EXPECT_EQ(tool("evolve splash.json -o text").code, 3);
+}
+
+TEST_F(Evolve, InterruptedRunEndsItsStepAndWritesItsSummary) {
+  const Outcome outcome = shell(
+      "\"$MENISCUS\" evolve splash.json -o out --steps 1000000 --set solids='[]' & pid=$!;"
+      " while [ ! -e out/frame_0001.ply ]; do sleep 0.05; done; kill -TERM $pid; wait $pid");
+  EXPECT_EQ(outcome.code, 130) << outcome.err;
+  const json run = report("out/run.json");
+  EXPECT_EQ(run["status"], "interrupted");
+  EXPECT_GT(run["steps"].get<int>(), 0);
+  EXPECT_TRUE(has(outcome.err, "interrupted")) << outcome.err;
+}
+
+}  // namespace
+}  // namespace meniscus

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command.h"
+#include "evolve_run.h"
+#include "meniscus/core/error.h"
+#include "meniscus/io/read_file.h"
+#include "meniscus/scene/read_scene.h"
+#include "mesh_files.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <iostream>
+
+namespace meniscus::tools {
+namespace {
+
+struct EvolveOptions {
+  CommonOptions common;
+  std::vector<std::string> inputs, settings;
+  std::string output, frames_as = "ply", gravity;
+  std::optional<double> time_step;
+  std::optional<int> frames, steps;
+  bool dry_run = false, no_frames = false, resume = false;
+};
+
+bool is_scene(const std::string& file) { return std::filesystem::path(file).extension() == ".json"; }
+
+std::string gravity_setting(const std::string& text) {
+  std::vector<double> g;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    g.push_back(parse_number("--gravity", text.substr(start, end - start)));
+    start = end + 1;
+  }
+  if (g.size() != 3)
+    throw UsageError(fmt::format("--gravity: \"{}\" is not three numbers x,y,z (cm/s^2), as in 0,0,-981", text));
+  return fmt::format("gravity=[{:.17g},{:.17g},{:.17g}]", g[0], g[1], g[2]);
+}
+
+/// --set, and the options that are short for one. What is given by name comes last and wins.
+std::vector<std::string> all_settings(const EvolveOptions& options) {
+  std::vector<std::string> settings = options.settings;
+  if (options.time_step) settings.push_back(fmt::format("time_step={:.17g}", *options.time_step));
+  if (!options.gravity.empty()) settings.push_back(gravity_setting(options.gravity));
+  if (options.frames) settings.push_back(fmt::format("frames={}", *options.frames));
+  return settings;
+}
+
+/// Meshes instead of a scene: the scene that names them as its drops, with defaults for the rest.
+/// A sphere holds the place of stdin, which no scene can name.
+Scene scene_of_meshes(const EvolveOptions& options) {
+  nlohmann::ordered_json drops = nlohmann::ordered_json::array();
+  for (const std::string& file : options.inputs) {
+    if (file == "-") {
+      drops.push_back({{"shape", "sphere"}, {"radius", 1}});
+      continue;
+    }
+    format_of(file);
+    if (!std::filesystem::exists(file)) throw FileError(file + ": there is no such file; correct the name");
+    drops.push_back({{"mesh", file}});
+  }
+  const nlohmann::ordered_json scene{{"drops", drops}};
+  return parse_scene(scene.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace), "<command line>", "",
+                     all_settings(options));
+}
+
+Scene read_input_scene(const EvolveOptions& options) {
+  const auto num_scenes = std::count_if(options.inputs.begin(), options.inputs.end(), is_scene);
+  if (num_scenes > 0 && options.inputs.size() > 1)
+    throw UsageError("give either one scene (.json) or meshes, not both; a scene names its meshes itself");
+  if (num_scenes == 1) return read_scene(options.inputs.front(), all_settings(options));
+  return scene_of_meshes(options);
+}
+
+/// Drops that came through stdin, which no scene can name: then all meshes are read here.
+std::optional<std::vector<Drop>> read_piped_drops(const EvolveOptions& options, Scene& scene) {
+  const auto pipes = std::count(options.inputs.begin(), options.inputs.end(), "-");
+  if (pipes == 0) return std::nullopt;
+  if (pipes > 1) throw UsageError("-: stdin can be read only once");
+  std::vector<Drop> drops;
+  for (const std::string& file : options.inputs) {
+    const MeshData data = read_input(file, options.common);
+    for (Drop& drop : naming(file, [&] { return to_drops(data); })) {
+      drop.set_id(static_cast<int>(drops.size()));
+      drops.push_back(std::move(drop));
+    }
+  }
+  scene.drops.clear();
+  return drops;
+}
+
+/// Frames that a run would replace must not be what it starts from.
+void check_inputs_survive(const EvolveOptions& options, const Scene& scene) {
+  if (options.no_frames) return;
+  const std::filesystem::path output = std::filesystem::weakly_canonical(options.output);
+  for (const DropSpec& drop : scene.drops) {
+    if (drop.shape != DropShape::mesh) continue;
+    const std::filesystem::path file = std::filesystem::weakly_canonical(scene.locate(drop.file));
+    if (file.parent_path() == output && is_frame_name(file.filename().string()))
+      throw UsageError(fmt::format("{}: lies in {}, whose frames this run replaces; choose another directory with -o",
+                                   drop.file.string(), options.output));
+  }
+}
+
+int evolve(const EvolveOptions& options) {
+  if (options.resume) throw UsageError("--resume: comes in a later version; start from the last frame's .ply instead");
+  RunPlan plan;
+  plan.output = options.output;
+  plan.frame_options.meshes = !options.no_frames;
+  plan.frame_options.formats = parse_frame_formats(options.frames_as);
+  plan.dry_run = options.dry_run;
+  plan.inputs = options.inputs;
+  plan.scene = read_input_scene(options);
+  plan.drops = read_piped_drops(options, plan.scene);
+  plan.frame_options.density = plan.scene.liquid.density;
+  plan.steps = options.steps ? *options.steps : std::int64_t{plan.scene.frames} * plan.scene.steps_per_frame;
+  check_inputs_survive(options, plan.scene);
+  return run_evolution(std::move(plan), options.common);
+}
+
+void add_options(CLI::App& verb, EvolveOptions& options) {
+  verb.add_option("SCENE", options.inputs,
+                  "A scene (.json), or meshes (.ply, .off, ...; - for stdin) to evolve in the default one")
+      ->required();
+  add_output(verb, options.output, "Directory of frames, measures.csv and run.json; made if need be")->type_name("DIR");
+  CLI::Option* frames = verb.add_option("--frames", options.frames, "Frames after the first (default: the scene's)")
+                            ->type_name("N")
+                            ->check(CLI::Range(0, 1000000));
+  verb.add_option("--steps", options.steps, "Steps in all, instead of --frames; the last one is a frame too")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000000000))
+      ->excludes(frames);
+  verb.add_option("--set", options.settings, "Set a key of the scene, as in liquid.viscosity=0.1; may be repeated")
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->take_all();
+  add_positive(verb, "--time-step", options.time_step, "s", "Time of a step (default: the scene's, 1/240)");
+  verb.add_option("--gravity", options.gravity, "cm/s^2 (default: the scene's, 0,0,-981)")->type_name("x,y,z");
+  verb.add_flag("--dry-run", options.dry_run, "Read and build everything, say what would run, write nothing");
+  verb.add_flag("--no-frames", options.no_frames, "Write measures.csv and run.json only");
+  verb.add_option("--frames-as", options.frames_as, "Formats of frames, joined by commas: ply, off, obj; PLY always is")
+      ->capture_default_str()
+      ->type_name("FORMATS");
+  verb.add_flag("--resume", options.resume, "Comes in a later version");
+}
+
+}  // namespace
+
+void add_evolve(CLI::App& app, Run& run) {
+  const auto options = std::make_shared<EvolveOptions>();
+  CLI::App* verb = add_verb(app,
+                            {"evolve",
+                             "Run a scene, or meshes as drops in the default scene: frames, measures, a summary.",
+                             {"meniscus evolve data/scenes/splash.json -o out",
+                              "meniscus evolve drop.ply other.off -o out --steps 100 --gravity 0,0,0"}},
+                            options->common);
+  add_options(*verb, *options);
+  add_format(*verb, options->common);
+  verb->callback([=, &run] { run = [=] { return evolve(*options); }; });
+}
+
+}  // namespace meniscus::tools

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run_statistics.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace meniscus::tools {
+namespace {
+
+/// The q-quantile of sorted values by the nearest rank; 0 of none.
+double quantile(const std::vector<double>& sorted, double q) {
+  if (sorted.empty()) return 0;
+  const double rank = std::ceil(q * static_cast<double>(sorted.size()));
+  return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+double per(double sum, std::size_t n) { return n == 0 ? 0 : sum / static_cast<double>(n); }
+
+std::size_t num_threads() {
+  return std::min(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism),
+                  static_cast<std::size_t>(tbb::info::default_concurrency()));
+}
+
+}  // namespace
+
+double cpu_seconds() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+RunStatistics::RunStatistics(const Simulation& simulation)
+    : initial_volume_(simulation.target_volume()),
+      final_volume_(simulation.volume()),
+      time_(simulation.time()),
+      num_drops_(simulation.drops().size()),
+      start_wall_(seconds_now()),
+      start_cpu_(cpu_seconds()) {}
+
+void RunStatistics::add_step(const Simulation& simulation, const StepReport& report, double seconds) {
+  step_seconds_.push_back(seconds);
+  sum_ += report;
+  max_triangles_ = std::max(max_triangles_, report.triangles);
+  worst_error_ = std::max(worst_error_, report.worst_volume_error);
+  final_volume_ = simulation.volume();
+  time_ = simulation.time();
+  num_drops_ = simulation.drops().size();
+  if (initial_volume_ > 0)
+    worst_error_ = std::max(worst_error_, std::abs(final_volume_ - initial_volume_) / initial_volume_);
+}
+
+double RunStatistics::triangle_steps_per_second() const {
+  const double stepping = std::accumulate(step_seconds_.begin(), step_seconds_.end(), 0.0);
+  return stepping > 0 ? static_cast<double>(sum_.triangles) / stepping : 0;
+}
+
+Json RunStatistics::to_json() const {
+  std::vector<double> sorted = step_seconds_;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t steps = sorted.size();
+  Json stages = Json::object();
+  for (std::size_t k = 0; k < num_stages; ++k)
+    stages[stage_name(static_cast<Stage>(k))] = 1e3 * per(sum_.stage_seconds[k], steps);
+  return {{"steps", steps},
+          {"simulated_seconds", time_},
+          {"wall_seconds", seconds_now() - start_wall_},
+          {"cpu_seconds", cpu_seconds() - start_cpu_},
+          {"threads", num_threads()},
+          {"triangles", {{"mean", per(static_cast<double>(sum_.triangles), steps)}, {"max", max_triangles_}}},
+          {"triangle_steps_per_second", triangle_steps_per_second()},
+          {"step_ms",
+           {{"p50", 1e3 * quantile(sorted, 0.5)},
+            {"p99", 1e3 * quantile(sorted, 0.99)},
+            {"max", 1e3 * quantile(sorted, 1)}}},
+          {"stage_ms", std::move(stages)},
+          {"counts",
+           {{"merges", 0},
+            {"splits", sum_.cuts},
+            {"deleted", sum_.deleted},
+            {"retries", 0},
+            {"refused", 0},
+            {"edge_operations", sum_.edge_operations},
+            {"limited_volume_corrections", sum_.limited_volume}}},
+          {"volume",
+           {{"initial", initial_volume_},
+            {"added", 0.0},
+            {"final", final_volume_},
+            {"worst_relative_error", worst_error_}}},
+          {"drops", num_drops_}};
+}
+
+}  // namespace meniscus::tools

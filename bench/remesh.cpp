@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Remeshing beside CGAL's isotropic_remeshing, in one run: bench_remesh [--quick] [FILE...]
-// Random runs of remesh and split before an independent judge: bench_remesh --stress [N]
+// Random runs of remesh and split before an independent judge: bench_remesh --stress [N [FIRST_SEED]]
 #include "meniscus/topology/remesh.h"
 #include "../tests/support/judge.h"
 #include "../tests/support/random_shapes.h"
@@ -11,6 +11,7 @@
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <Eigen/Geometry>
 
 #include <cstdlib>
 #include <string>
@@ -144,10 +145,10 @@ void unchanged(const std::string& name, const Mesh& mesh) {
              changed ? " (but something changed)" : "");
 }
 
-int stress(unsigned runs) {
+int stress(unsigned runs, unsigned first_seed) {
   unsigned unsound = 0, met = 0, were_meeting = 0, refused = 0;
   std::size_t cuts = 0, operations = 0;
-  for (unsigned seed = 0; seed < runs; ++seed) {
+  for (unsigned seed = first_seed; seed < first_seed + runs; ++seed) {
     random_shapes::Numbers numbers(seed);
     const Mesh mesh = random_shapes::shape(numbers);
     const RemeshOptions options = random_shapes::options_for(mesh, numbers);
@@ -189,7 +190,8 @@ int main(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   bool quick = false;
   if (!arguments.empty() && arguments[0] == "--stress")
-    return stress(arguments.size() > 1 ? static_cast<unsigned>(std::atoi(arguments[1].c_str())) : 1000);
+    return stress(arguments.size() > 1 ? static_cast<unsigned>(std::atoi(arguments[1].c_str())) : 1000,
+                  arguments.size() > 2 ? static_cast<unsigned>(std::atoi(arguments[2].c_str())) : 0);
   if (!arguments.empty() && arguments[0] == "--quick") {
     quick = true;
     arguments.erase(arguments.begin());

@@ -28,18 +28,6 @@ double unbalanced_length(const ContactLineVertex& line, const Solid& solid, doub
   return 0;
 }
 
-/// The mean pressure over sigma that the volume correction put against the last flow: what the
-/// flow took off the volume, by the free area and c dt^2.
-double pressure_over_tension(Drop& drop, const SurfaceGeometry& geometry, double dt, double c) {
-  double flux = 0, area = 0;
-  for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
-    if (drop.contact()[v] != Contact::free) continue;
-    flux -= drop.displacements().col(v).dot(geometry.area_vector(v));
-    area += geometry.area_vector(v).norm();
-  }
-  return area > 0 && c * dt > 0 ? flux / (area * c * dt * dt) : 0;
-}
-
 /// The change of the line vertex's velocity by virtual work: it sticks, or it is pushed against friction,
 /// (M + dt xi l + dt^2 c L_ii) v_new = M v + dt c f along the line's normal.
 Vector3d virtual_work_kick(const ContactLineVertex& line, double force, const Vector3d& slip, double mass, double dt,
@@ -59,9 +47,6 @@ ContactAngleReport apply_contact_angle(Drop& drop, const std::vector<Solid>& sol
   const auto n = static_cast<std::uint32_t>(drop.num_rows());
   std::vector<Vector3d>& kick = drop.workspace().vectors;  // all from the same state, so that order does not matter
   kick.resize(n);
-  const double pressure = options.force == ContactForce::virtual_work
-                              ? pressure_over_tension(drop, geometry, dt, options.tension_over_mass)
-                              : 0;
   for (std::uint32_t v = 0; v < n; ++v) {
     if (contact[v] != Contact::line) continue;
     kick[v].setZero();
@@ -74,7 +59,7 @@ ContactAngleReport apply_contact_angle(Drop& drop, const std::vector<Solid>& sol
       report.advancing += line->angle > solid.advancing_angle;
       report.receding += line->angle < solid.receding_angle;
     } else {
-      const double force = unbalanced_length(*line, solid, pressure);
+      const double force = unbalanced_length(*line, solid, options.body_pressure.at(drop.positions().col(v)));
       const Vector3d slip = drop.velocities().col(v) - solid.velocity(time);
       kick[v] = virtual_work_kick(*line, force, slip, geometry.lumped_area(v), dt, options);
       report.advancing += force > 0;

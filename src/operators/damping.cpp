@@ -3,10 +3,9 @@
 
 #include "meniscus/core/error.h"
 #include "meniscus/geometry/flow_matrix.h"
-#include "meniscus/geometry/rigid_motion.h"
 #include "meniscus/operators/collision_constraint.h"
+#include "meniscus/state/free_rigid_motion.h"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,9 +14,6 @@ namespace meniscus {
 namespace {
 
 using Eigen::Vector3d;
-
-/// A direction counts as held by contact from this share of the strongest on.
-constexpr double held_share = 0.1;
 
 /// The largest L_ii / M_ii (1/cm^2) of a matrix M + s L, times s.
 double stiffest_row(const RingMatrix& matrix, const SurfaceGeometry& geometry) {
@@ -54,31 +50,6 @@ DampingReport viscous_change(Drop& drop, const SurfaceGeometry& geometry, const 
     throw NumericsError(fmt::format("drop {}: the viscous solve did not converge in {} iterations (residual {:.1e})",
                                     drop.id(), report.solve.iterations, report.solve.relative_residual));
   return report;
-}
-
-/// The rigid motion that contact leaves a drop: none along the normals of the solids that it lies on,
-/// and only the rotation about them.
-RigidMotion free_rigid_motion(const Drop& drop, const SurfaceGeometry& geometry) {
-  RigidMotion rigid = fit_rigid_motion(drop.positions(), drop.velocities(), geometry);
-  Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-    if (is_colliding(drop.contact()[i])) {
-      const Vector3d n = drop.contact_normals().col(i);
-      normals += geometry.lumped_area(i) * n * n.transpose();
-    }
-  if (normals.isZero(0)) return rigid;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(normals);
-  const double largest = axes.eigenvalues().maxCoeff();
-  int held = 0;
-  for (int k = 0; k < 3; ++k) {
-    const Vector3d axis = axes.eigenvectors().col(k);
-    if (axes.eigenvalues()[k] < held_share * largest) continue;
-    rigid.translation -= rigid.translation.dot(axis) * axis;
-    ++held;
-  }
-  const Vector3d normal = axes.eigenvectors().col(2);
-  rigid.rotation = held == 1 ? Vector3d(rigid.rotation.dot(normal) * normal) : Vector3d(Vector3d::Zero());
-  return rigid;
 }
 
 /// The paper's extra viscosity: vertices of poor quality take on part of their neighbours' mean.
@@ -124,13 +95,7 @@ DampingReport apply_damping(Drop& drop, const SurfaceGeometry& geometry, double 
     const Vector3d u = v.col(i) - base;
     Vector3d u_new = factor * u;
     if (viscous) u_new += to_eigen(drop.workspace().solution[i]);
-    if (options.tangential_damping > 0 && !is_colliding(drop.contact()[i])) {
-      const Vector3d normal = geometry.normal(i);
-      u_new -= options.tangential_damping * (u_new - u_new.dot(normal) * normal);
-    }
-    const Vector3d change = constrain_to_solid(drop, i, u_new - u);
-    v.col(i) += change;
-    if (options.correct_positions) drop.positions().col(i) += change * dt;
+    v.col(i) += constrain_to_solid(drop, i, u_new - u);
   }
   if (options.poor_quality_smoothing > 0)
     report.smoothed = smooth_poor_vertices(drop, v, options.poor_quality_smoothing);

@@ -34,6 +34,9 @@ SolveReport flow_by_mean_curvature(Drop& drop, const SurfaceGeometry& geometry, 
 
   assemble_flow_matrix(drop.connectivity(), geometry, step, options.clamp_negative_weights, work.matrix);
   curvature_right_hand_side(drop.connectivity(), work.matrix, x, work.rhs.data());
+  if (options.body_pressure.mean != 0 || !options.body_pressure.gradient.isZero(0))
+    for (std::uint32_t i = 0; i < n; ++i)
+      work.rhs[i] += to_lanes(step / 3 * options.body_pressure.at(x.col(i)) * geometry.area_vector(i));
   for (std::size_t i = 0; i < n; ++i) work.solution[i] = to_lanes(last.col(static_cast<Eigen::Index>(i)));
   const SolveReport report =
       work.solver.solve(drop.connectivity(), work.matrix, work.rhs.data(), work.solution.data(),

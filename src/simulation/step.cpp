@@ -5,6 +5,7 @@
 #include "meniscus/operators/damping.h"
 #include "meniscus/operators/external_forces.h"
 #include "meniscus/operators/mean_curvature_flow.h"
+#include "meniscus/operators/tangential_damping.h"
 #include "meniscus/operators/volume_correction.h"
 #include "meniscus/topology/split.h"
 
@@ -15,6 +16,8 @@ namespace meniscus {
 namespace {
 
 using Eigen::Vector3d;
+
+constexpr double pi = 3.14159265358979323846;
 
 /// Adds up seconds by stage, if there is a clock.
 class StageClock {
@@ -33,6 +36,9 @@ class StageClock {
   double last_;
 };
 
+/// The radius of the ball of the drop's volume (cm).
+double ball_radius(const Drop& drop) { return std::cbrt(3 * drop.target_volume() / (4 * pi)); }
+
 /// c = 2 sigma/(rho R), cm^3/s^2: the acceleration that a mean curvature of 1/cm gives a drop whose
 /// lowest mode runs at Rayleigh's frequency; R = 3 V/A of the water-air surface.
 double tension_over_mass(const Drop& drop, const SurfaceGeometry& geometry, const Liquid& liquid) {
@@ -40,9 +46,31 @@ double tension_over_mass(const Drop& drop, const SurfaceGeometry& geometry, cons
   return 2 * liquid.surface_tension / (liquid.density * length);
 }
 
-ExternalForcesOptions external_forces_options(const StepOptions& step) {
+bool is_in_contact(const Drop& drop) {
+  return drop.num_rows() > 0 && std::any_of(drop.contact(), drop.contact() + drop.num_rows(), is_colliding);
+}
+
+/// Whether gravity acts as a pressure: on a drop that a solid holds. In flight, and in Level::paper, it
+/// moves the vertices instead.
+bool gravity_is_pressure(const Drop& drop, const StepOptions& step) {
+  return step.level != Level::paper && step.liquid.surface_tension > 0 && is_in_contact(drop);
+}
+
+/// What holds against the curvature at rest.
+BodyPressure body_pressure(const Drop& drop, const SurfaceGeometry& geometry, const StepOptions& step) {
+  BodyPressure pressure;
+  if (step.level == Level::paper) return pressure;
+  if (gravity_is_pressure(drop, step)) {
+    pressure.gradient = step.liquid.density / step.liquid.surface_tension * step.gravity;
+    pressure.center = drop.positions().col(0);
+  }
+  pressure.mean = mean_pressure(drop, geometry, pressure);
+  return pressure;
+}
+
+ExternalForcesOptions external_forces_options(const Drop& drop, const StepOptions& step) {
   ExternalForcesOptions options;
-  options.gravity = step.gravity;
+  options.gravity = gravity_is_pressure(drop, step) ? Vector3d(Vector3d::Zero()) : step.gravity;
   options.friction_per_step = step.level == Level::paper;
   options.no_slip = step.level != Level::paper;
   return options;
@@ -61,13 +89,12 @@ DampingOptions damping_options(const StepOptions& step) {
   } else {
     options.viscosity_coefficient = viscosity_to_eta * step.liquid.viscosity;
     options.keep_rigid_motion = true;
-    options.tangential_damping = 1;
-    options.correct_positions = true;
   }
   return options;
 }
 
-MeanCurvatureFlowOptions flow_options(const StepOptions& step, double tension, double dt) {
+MeanCurvatureFlowOptions flow_options(const StepOptions& step, const BodyPressure& pressure, double tension,
+                                      double dt) {
   MeanCurvatureFlowOptions options;
   options.solver = step.solver;
   if (step.level == Level::paper) {
@@ -75,6 +102,7 @@ MeanCurvatureFlowOptions flow_options(const StepOptions& step, double tension, d
     options.clamp_negative_weights = false;
   } else {
     options.coefficient = tension * dt;
+    options.body_pressure = pressure;
   }
   return options;
 }
@@ -82,22 +110,26 @@ MeanCurvatureFlowOptions flow_options(const StepOptions& step, double tension, d
 /// xi, g/(cm s): what a moving contact line of water on smooth solids meets, in order of magnitude.
 constexpr double contact_line_friction = 1;
 
-ContactAngleOptions contact_angle_options(const StepOptions& step, double tension) {
+ContactAngleOptions contact_angle_options(const StepOptions& step, const BodyPressure& pressure, double tension) {
   ContactAngleOptions options;
   options.force = step.level == Level::paper ? ContactForce::measured_angle : ContactForce::virtual_work;
   options.boundary_force = step.paper.boundary_force;
   options.tension_over_mass = tension;
+  options.body_pressure = pressure;
   options.line_friction_over_mass = contact_line_friction * tension / step.liquid.surface_tension;
   return options;
 }
 
-VolumeCorrectionOptions volume_options(const StepOptions& step) {
+/// The most that one volume correction may offset the surface, as a share of the ball's radius.
+constexpr double largest_offset = 0.25;
+
+VolumeCorrectionOptions volume_options(const StepOptions& step, const Drop& drop) {
   VolumeCorrectionOptions options;
   options.method = step.volume_correction;
   options.local = step.level == Level::paper ? LocalCorrection::smooth_velocity : LocalCorrection::local_pressure;
   options.solver = step.solver;
   options.solver.tolerance = std::max(options.solver.tolerance, 1e-3);  // what it leaves is the global part's
-  options.offset_limit = 0.25 * step.band.edge_min;
+  options.offset_limit = largest_offset * ball_radius(drop);
   return options;
 }
 
@@ -111,8 +143,9 @@ RemeshOptions remesh_options(const StepOptions& step) {
 /// At most this much of a drop's lowest mode's phase, sqrt(2), passes in one substep of Level::calibrated:
 /// (omega dt)^2 = 4 c dt^2/R^2 <= 2. Beyond, one implicit step of the flow would shrink the drop by half.
 constexpr double largest_phase_squared = 2;
-/// Near a solid a drop moves at most this share of its length 3 V/A a substep, so that it meets the
-/// solid with its front and not as a whole.
+/// Near a solid sqrt(c) dt is at most the middle of the edge band: beyond, the contact line and the
+/// surface beside it move past each other within a substep, and the wetted area folds. There, too, a drop moves at most
+/// this share of its ball's radius a substep, so that it meets the solid with its front and not as a whole.
 constexpr double largest_move = 0.5;
 constexpr int most_substeps = 256;
 
@@ -127,17 +160,17 @@ int num_substeps(Drop& drop, const std::vector<Solid>& solids, double time, doub
     speed = std::max(speed, v.col(i).squaredNorm());
   }
   if (box.isEmpty()) return 1;
-  const double length = std::cbrt(3 * drop.target_volume() / (4 * M_PI));
-  double substeps = 1;
-  if (options.level != Level::paper) {
-    const double tension = 2 * options.liquid.surface_tension / (options.liquid.density * length);
-    substeps = std::max(substeps, std::sqrt(4 * tension / largest_phase_squared) * dt / length);
-  }
+  const double length = ball_radius(drop);
   const double move = (std::sqrt(speed) + options.gravity.norm() * dt) * dt;
   const bool near = std::any_of(solids.begin(), solids.end(), [&](const Solid& solid) {
     return solid.is_near(box, time, move + solid.velocity(time).norm() * dt);
   });
-  if (near) substeps = std::max(substeps, move / (largest_move * length));
+  double substeps = near ? std::max(1.0, move / (largest_move * length)) : 1;
+  if (options.level != Level::paper) {
+    const double sqrt_c = std::sqrt(2 * options.liquid.surface_tension / (options.liquid.density * length));
+    substeps = std::max(substeps, std::sqrt(4 / largest_phase_squared) * sqrt_c * dt / length);
+    if (near) substeps = std::max(substeps, sqrt_c * dt / (0.5 * (options.band.edge_min + options.band.edge_max)));
+  }
   return static_cast<int>(std::ceil(std::min(substeps, static_cast<double>(most_substeps))));
 }
 
@@ -145,32 +178,37 @@ int num_substeps(Drop& drop, const std::vector<Solid>& solids, double time, doub
 std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                           const StepOptions& options, Remesher& remesher, StepReport& report) {
   StageClock clock(options.clock, report);
-  const ExternalForcesReport forces = apply_external_forces(drop, solids, time, dt, external_forces_options(options));
+  const ExternalForcesReport forces =
+      apply_external_forces(drop, solids, time, dt, external_forces_options(drop, options));
   clock.done(Stage::external_forces);
 
   SurfaceGeometry& geometry = drop.workspace().geometry;
   geometry.compute(std::as_const(drop).positions(), drop.connectivity());
   const double tension = tension_over_mass(drop, geometry, options.liquid);
+  const BodyPressure pressure = body_pressure(drop, geometry, options);
   clock.done(Stage::geometry);
 
   apply_damping(drop, geometry, dt, damping_options(options));
   clock.done(Stage::damping);
 
-  // The paper moves the contact line after the flow; there the surface stands back by what the volume
-  // correction will give it again, and the angle is off by as much. Before the flow it is whole.
+  const auto flow = [&] {
+    const SolveReport solve = flow_by_mean_curvature(drop, geometry, dt, flow_options(options, pressure, tension, dt));
+    report.solver_iterations = std::max(report.solver_iterations, solve.iterations);
+    clock.done(Stage::curvature_flow);
+  };
   const auto move_contact_line = [&] {
     if (forces.colliding > 0)
-      apply_contact_angle(drop, solids, geometry, time, dt, contact_angle_options(options, tension));
+      apply_contact_angle(drop, solids, geometry, time, dt, contact_angle_options(options, pressure, tension));
     clock.done(Stage::contact_angle);
   };
-  if (options.level != Level::paper) move_contact_line();
+  move_contact_line();
+  flow();
+  if (options.level != Level::paper) {
+    remove_tangential_deformation(drop, geometry, dt);
+    clock.done(Stage::damping);
+  }
 
-  const SolveReport flow = flow_by_mean_curvature(drop, geometry, dt, flow_options(options, tension, dt));
-  report.solver_iterations = std::max(report.solver_iterations, flow.iterations);
-  clock.done(Stage::curvature_flow);
-  if (options.level == Level::paper) move_contact_line();
-
-  const VolumeCorrectionReport volume = correct_volume(drop, geometry, dt, volume_options(options));
+  const VolumeCorrectionReport volume = correct_volume(drop, geometry, dt, volume_options(options, drop));
   report.limited_volume += volume.limited;
   if (volume.relative_error == volume.relative_error)
     report.worst_volume_error = std::max(report.worst_volume_error, std::abs(volume.relative_error));

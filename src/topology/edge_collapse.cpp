@@ -87,27 +87,47 @@ Eigen::Vector3d volume_keeping_point(const RemeshState& state, VertexIndex a, Ve
   return norm <= most ? Eigen::Vector3d(middle + offset) : Eigen::Vector3d(middle + offset * (most / norm));
 }
 
+/// Unit normal of the faces at v that are not flat on a solid: there the air surface looks to.
+Eigen::Vector3d air_normal(const RemeshState& state, VertexIndex v) {
+  if (!state.colliding(v)) return state.normal(v);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto h : CGAL::halfedges_around_target(state.mesh.halfedge(v), state.mesh))
+    if (!state.is_colliding_face(h)) sum += state.area_vector(h);
+  return sum.stableNormalized();
+}
+
+/// A face of three colliding vertices that does not face the solid: a film of no thickness, or one
+/// turned over in the wetted area.
+bool would_not_face_solid(const Eigen::Vector3d& n_new, const Eigen::Vector3d& solid_normal) {
+  return !(n_new.dot(solid_normal) < 0);
+}
+
 /// Checks every face about v that stays, with v at x. A face that is folded over already (it looks
-/// away from the vertex normal) is to unfold: it is held against that normal.
+/// away from the vertex normal, or from the solid that it lies on) is to unfold: it is held against that.
 Refusal would_harm_star(const RemeshState& state, VertexIndex v, VertexIndex other, const Eigen::Vector3d& x,
                         bool becomes_colliding, std::vector<Eigen::Vector3d>& normals) {
   constexpr double thin = 0.05;  // twice the area over the longest side squared: 0.87 for an equilateral triangle
   const double bound = std::cos(state.options.max_normal_turn);
-  const Eigen::Vector3d x_old = state.point(v), normal = state.normal(v);
+  const Eigen::Vector3d x_old = state.point(v), outward = air_normal(state, v);
+  Eigen::Vector3d solid_normal = Eigen::Vector3d::Zero();
+  if (becomes_colliding) solid_normal = state.contact_normal(state.colliding(v) ? v : other);
   Refusal refusal = Refusal::none;
   for_each_kept_face(state, v, other, [&](VertexIndex vp, VertexIndex vq) {
     if (refusal != Refusal::none) return;
     const Eigen::Vector3d p = state.point(vp), q = state.point(vq);
     const Eigen::Vector3d n_old = (p - x_old).cross(q - x_old), n_new = (p - x).cross(q - x);
     const double old_norm = n_old.norm(), new_norm = n_new.norm(), rim2 = (q - p).squaredNorm();
+    const bool becomes_flat = becomes_colliding && state.colliding(vp) && state.colliding(vq);
+    const Eigen::Vector3d normal = becomes_flat && state.colliding(v) ? Eigen::Vector3d(-solid_normal) : outward;
     const double xp2 = (p - x).squaredNorm(),
                  old_longest2 = std::max({rim2, (p - x_old).squaredNorm(), (q - x_old).squaredNorm()});
     const double new_longest2 = std::max({rim2, xp2, (q - x).squaredNorm()});
     const bool was_folded = n_old.dot(normal) < 0, was_thin = was_folded || old_norm < thin * old_longest2;
     const double turn = was_folded ? n_new.dot(normal) : n_new.dot(n_old) / old_norm;  // cosine times new_norm
-    const double weight =
-        becomes_colliding && state.colliding(vp) && state.colliding(vq) ? state.options.band.wetted_weight : 1;
-    if (!(turn > bound * new_norm) && !(was_thin && turn >= 0))
+    const double weight = becomes_flat ? state.options.band.wetted_weight : 1;
+    if (becomes_flat && would_not_face_solid(n_new, solid_normal))
+      refusal = Refusal::contact_line;
+    else if (!(turn > bound * new_norm) && !(was_thin && turn >= 0))
       refusal = Refusal::would_invert;
     else if (new_norm < thin * new_longest2 && !(was_thin && new_norm * old_longest2 > old_norm * new_longest2))
       refusal = Refusal::would_be_sliver;
@@ -172,7 +192,20 @@ Refusal try_collapse(RemeshState& state, HalfedgeIndex h) {
     }
   if (refusal != Refusal::none) return refusal;
   if (!CGAL::Euler::does_satisfy_link_condition(mesh.edge(h), mesh)) return Refusal::link_condition;
+  const double t = target == Target::first ? 0 : target == Target::second ? 1 : 0.5;
+  collapse_to(state, h, point_of(state, a, b, target), t);
+  return Refusal::none;
+}
 
+bool is_collapse_ok(const RemeshState& state, HalfedgeIndex h) {
+  const Mesh& mesh = state.mesh;
+  return !has_other_common_neighbour(state, mesh.source(h), mesh.target(h)) &&
+         would_break_valence(state, h) == Refusal::none && CGAL::Euler::does_satisfy_link_condition(mesh.edge(h), mesh);
+}
+
+void collapse_to(RemeshState& state, HalfedgeIndex h, const Eigen::Vector3d& x, double t) {
+  Mesh& mesh = state.mesh;
+  const auto a = mesh.source(h), b = mesh.target(h);
   if (!state.scratch.attributes.is_bound()) state.scratch.attributes.bind(mesh);
   auto& around = state.scratch.around;
   around.clear();
@@ -184,11 +217,9 @@ Refusal try_collapse(RemeshState& state, HalfedgeIndex h) {
   around.erase(std::unique(around.begin(), around.end()), around.end());
   const FaceIndex left = mesh.face(h), right = mesh.face(mesh.opposite(h));
 
-  const Eigen::Vector3d x = point_of(state, a, b, target);
   const bool becomes_colliding = state.colliding(a) || state.colliding(b);
   const auto kept = CGAL::Euler::collapse_edge(mesh.edge(h), mesh);
   mesh.point(kept) = to_point(x);
-  const double t = target == Target::first ? 0 : target == Target::second ? 1 : 0.5;
   state.scratch.attributes.interpolate(kept, a, b, t);
   if (becomes_colliding) state.drop.contact_normals().col(kept).stableNormalize();
   state.connectivity.remove_face(left);
@@ -199,7 +230,6 @@ Refusal try_collapse(RemeshState& state, HalfedgeIndex h) {
       if (!mesh.is_removed(v)) state.update_contact(v);
   state.queue_ring(kept);
   ++state.report.collapses;
-  return Refusal::none;
 }
 
 }  // namespace meniscus

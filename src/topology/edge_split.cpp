@@ -8,12 +8,48 @@
 namespace meniscus {
 namespace {
 
+constexpr double smooth = 0.766;  // cosine of 40 degrees: between the crease of a box, 45, and an icosahedron, 37
+
+/// The unit normal of the surface's smooth part at a vertex: of the water-air faces on a contact line;
+/// zero where there is none, as at an edge or corner.
+Eigen::Vector3d smooth_normal(const RemeshState& state, VertexIndex v) {
+  const auto none = Eigen::Vector3d::Zero();
+  if (state.feature_rank(v) > 0) return none;
+  Eigen::Vector3d sum = none;
+  const auto around = CGAL::halfedges_around_target(state.mesh.halfedge(v), state.mesh);
+  const bool has_wet_faces = state.colliding(v);
+  for (const auto h : around)
+    if (!has_wet_faces || !state.is_wet_face(h)) sum += state.area_vector(h);
+  const double length = sum.norm();
+  if (!(length > 0)) return none;
+  for (const auto h : around) {
+    if (has_wet_faces && state.is_wet_face(h)) continue;
+    const Eigen::Vector3d n = state.area_vector(h);
+    if (n.dot(sum) < smooth * n.norm() * length) return none;
+  }
+  return sum / length;
+}
+
 /// The midpoint of the cubic that meets both ends at right angles to their normals (as in PN
-/// triangles): (a + b)/2 - ((e.n_a) n_a - (e.n_b) n_b)/8 with e = b - a.
+/// triangles): (a + b)/2 - ((e.n_a) n_a - (e.n_b) n_b)/8 with e = b - a. An end without a normal
+/// adds nothing: there the surface leaves straight.
 Eigen::Vector3d curved_midpoint(const RemeshState& state, VertexIndex a, VertexIndex b) {
   const Eigen::Vector3d p = state.point(a), q = state.point(b), e = q - p;
-  const Eigen::Vector3d na = state.normal(a), nb = state.normal(b);
+  const Eigen::Vector3d na = smooth_normal(state, a), nb = smooth_normal(state, b);
   return 0.5 * (p + q) - (e.dot(na) * na - e.dot(nb) * nb) / 8;
+}
+
+/// A free vertex on an edge that touches a solid stays outside of it, and does not lie flat on it.
+Eigen::Vector3d off_the_solid(const RemeshState& state, VertexIndex a, VertexIndex b, const Eigen::Vector3d& m) {
+  const Eigen::Vector3d middle = 0.5 * (state.point(a) + state.point(b));
+  if (state.colliding(a) && state.colliding(b)) {
+    const Eigen::Vector3d n = (state.contact_normal(a) + state.contact_normal(b)).stableNormalized();
+    const double least = lift_in_edges * state.options.band.edge_min;
+    return (m - middle).dot(n) < least ? Eigen::Vector3d(middle + least * n) : m;
+  }
+  for (const auto v : {a, b})
+    if (state.colliding(v) && (m - state.point(v)).dot(state.contact_normal(v)) <= 0) return middle;
+  return m;
 }
 
 /// Would a new vertex at m turn one of the two halves of the face left of h too far?
@@ -48,7 +84,7 @@ void set_contact(RemeshState& state, VertexIndex v, Contact contact) {
 Refusal try_split(RemeshState& state, HalfedgeIndex h) {
   Mesh& mesh = state.mesh;
   if (!state.is_long(state.squared_length(h))) return Refusal::not_wanted;
-  const auto a = mesh.source(h), b = mesh.target(h), o = state.apex(h), p = state.apex(mesh.opposite(h));
+  const auto a = mesh.source(h), b = mesh.target(h);
   const Eigen::Vector3d middle = 0.5 * (state.point(a) + state.point(b));
   if (state.is_forbidden(middle)) return Refusal::near_intersection;
 
@@ -57,7 +93,15 @@ Refusal try_split(RemeshState& state, HalfedgeIndex h) {
   if (!is_colliding(contact) && !state.is_feature(h)) {
     m = curved_midpoint(state, a, b);
     if (would_fold_at(state, h, m) || would_fold_at(state, mesh.opposite(h), m)) m = middle;
+    m = off_the_solid(state, a, b, m);
   }
+  split_at(state, h, m, contact);
+  return Refusal::none;
+}
+
+VertexIndex split_at(RemeshState& state, HalfedgeIndex h, const Eigen::Vector3d& m, Contact contact) {
+  Mesh& mesh = state.mesh;
+  const auto a = mesh.source(h), b = mesh.target(h), o = state.apex(h), p = state.apex(mesh.opposite(h));
   if (!state.scratch.attributes.is_bound()) state.scratch.attributes.bind(mesh);
   // The faces left and right become quadrangles by the new vertex, then two triangles each.
   const auto first_half = CGAL::Euler::split_edge(h, mesh);
@@ -70,9 +114,10 @@ Refusal try_split(RemeshState& state, HalfedgeIndex h) {
   if (state.has_contact) set_contact(state, v, contact);
   state.connectivity.grow(mesh);
   for (const auto changed : {v, a, b, o, p}) state.update(changed);
+  for (const auto near : {a, b, o, p}) state.update_contact(near);
   state.queue_ring(v);
   ++state.report.splits;
-  return Refusal::none;
+  return v;
 }
 
 }  // namespace meniscus

@@ -82,12 +82,13 @@ void cut(RemeshState& state, const std::vector<HalfedgeIndex>& cycle) {
   for (const auto v : left) state.update(v);
   for (const auto v : right) state.update(v);
   // The rings of the right side's neighbours name the copies now.
+  auto& around = state.scratch.around;
+  around.clear();
   for (const auto v : right) {
     const Ring r = state.ring(v);
-    for (int k = 0; k < r.degree; ++k) state.scratch.around.emplace_back(r.neighbour[k]);
+    for (int k = 0; k < r.degree; ++k) around.emplace_back(r.neighbour[k]);
   }
-  for (const auto v : state.scratch.around) state.update(v);
-  state.scratch.around.clear();
+  for (const auto v : around) state.update(v);
 
   const double length = apart * std::sqrt(shortest2);
   std::array<Eigen::Vector3d, 6> steps;

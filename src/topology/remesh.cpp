@@ -125,6 +125,7 @@ void scan(RemeshState& state) {
     const bool is_wet =
         state.has_contact && is_colliding(contact[t[0]]) && is_colliding(contact[t[1]]) && is_colliding(contact[t[2]]);
     state.has_sharp_angle |= sides.is_sharp();
+    state.has_turned_faces |= is_wet && state.facing_solid(state.mesh.halfedge(FaceIndex(f))) < hardly_facing;
     if (sides.least < low2 || sides.greatest > high2 || sides.is_obtuse() || sides.is_poor() || is_wet)
       inspect_face(state, FaceIndex(f), sides, is_wet);
   }
@@ -182,7 +183,8 @@ RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOpt
   scratch.attributes.clear();
   RemeshState state(drop, options, scratch);
   scan(state);
-  const bool rests = scratch.splits.empty() && scratch.collapses.empty() && scratch.flips.empty();
+  const bool rests =
+      scratch.splits.empty() && scratch.collapses.empty() && scratch.flips.empty() && !state.has_turned_faces;
   if (rests && (options.smoothing == 0 || !state.has_sharp_angle)) return state.report;
   run_passes(state);
   mark_poor_quality(state);

@@ -109,8 +109,10 @@ void run_passes(RemeshState& state) {
   check_face_budget(state);
   for (int pass = 0; pass < options.max_passes; ++pass) {
     const RemeshReport before = state.report;
-    state.scratch.max_valence = pass == 0 ? 8 : 10;
     ++state.report.passes;
+    state.scratch.max_valence = 12;  // a fold is worse than a long ring
+    if (state.has_turned_faces) mend_contact(state);
+    state.scratch.max_valence = pass == 0 ? 8 : 10;
     split_long_edges(state);
     collapse_short_edges(state);
     flip_edges(state);

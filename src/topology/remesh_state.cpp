@@ -35,10 +35,14 @@ Eigen::Vector3d RemeshState::normal(VertexIndex v) const {
   return length > 0 ? Eigen::Vector3d(sum / length) : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
+double RemeshState::facing_solid(HalfedgeIndex h) const {
+  const Eigen::Vector3d a = point(mesh.source(h)), b = point(mesh.target(h)), c = point(apex(h));
+  const double longest2 = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return longest2 > 0 ? -0.5 * (b - a).cross(c - a).dot(contact_normal(mesh.source(h))) / longest2 : 0;
+}
+
 bool RemeshState::is_wet_face(HalfedgeIndex h) const {
-  const auto v = mesh.source(h);
-  if (!colliding(v) || !colliding(mesh.target(h)) || !colliding(apex(h))) return false;
-  return area_vector(h).dot(std::as_const(drop).contact_normals().col(v)) < 0;
+  return is_colliding_face(h) && area_vector(h).dot(contact_normal(mesh.source(h))) < 0;
 }
 
 bool RemeshState::inside_wetted_area(HalfedgeIndex h) const {

@@ -64,8 +64,9 @@ struct RemeshState {
   const RemeshOptions& options;
   Remesher::Scratch& scratch;
   RemeshReport report;
-  bool has_contact = false;      ///< some vertex is colliding
-  bool has_sharp_angle = false;  ///< some corner is under 30 degrees: smoothing has something to do
+  bool has_contact = false;       ///< some vertex is colliding
+  bool has_sharp_angle = false;   ///< some corner is under 30 degrees: smoothing has something to do
+  bool has_turned_faces = false;  ///< some face of three colliding vertices does not face its solid, or hardly
 
   Eigen::Vector3d point(VertexIndex v) const { return to_eigen(mesh.point(v)); }
   bool colliding(VertexIndex v) const { return has_contact && is_colliding(drop.contact()[v]); }
@@ -77,6 +78,15 @@ struct RemeshState {
   Eigen::Vector3d area_vector(HalfedgeIndex h) const;
   /// Unit normal at a vertex, area weighted; zero if its faces have no area.
   Eigen::Vector3d normal(VertexIndex v) const;
+  /// The three vertices of the face left of h are colliding.
+  bool is_colliding_face(HalfedgeIndex h) const {
+    return colliding(mesh.source(h)) && colliding(mesh.target(h)) && colliding(apex(h));
+  }
+  /// The solid's outward unit normal at a colliding vertex.
+  Eigen::Vector3d contact_normal(VertexIndex v) const { return std::as_const(drop).contact_normals().col(v); }
+  /// The part of the area vector of the face left of h that faces into the solid at its source, in
+  /// squares of its longest side: 0.43 at most, negative if it faces away.
+  double facing_solid(HalfedgeIndex h) const;
   /// The face left of h lies on a solid: its vertices are colliding, and it faces into the solid.
   bool is_wet_face(HalfedgeIndex h) const;
   /// Both faces of the edge are wet.
@@ -106,6 +116,12 @@ struct RemeshState {
 /// Edges flip below this cot a + cot b: below zero, so that cocircular quadrangles rest.
 constexpr double negative_weight = -1e-4;
 
+/// A face of three colliding vertices whose facing_solid is less is turned over, or nearly so.
+constexpr double hardly_facing = 0.01;
+
+/// How far a vertex is lifted off a solid where the liquid has no thickness, in lengths of edge_min.
+constexpr double lift_in_edges = 0.02;
+
 /// (cot a + cot b) of the angles opposite to the edge: twice its weight.
 double cotangent_sum(const RemeshState& state, HalfedgeIndex h);
 
@@ -119,6 +135,18 @@ Refusal try_collapse(RemeshState& state, HalfedgeIndex h);
 Refusal try_flip(RemeshState& state, HalfedgeIndex h);
 /// Cuts at a 3-cycle through the edge that is no face, if there is one (Section 5.2).
 Refusal try_cut(RemeshState& state, HalfedgeIndex h);
+/// Mends what moving vertices along a solid did to faces of three colliding vertices: folds in the
+/// wetted area, and air faces that lie flat on it (a film of no thickness).
+void mend_contact(RemeshState& state);
+
+/// Splits the edge of h at m, where the contact state is `contact`, unasked. Returns the new vertex.
+VertexIndex split_at(RemeshState& state, HalfedgeIndex h, const Eigen::Vector3d& m, Contact contact);
+/// Collapses the edge of h (a to b) to x with the attributes of (1 - t) a + t b, unasked.
+/// Precondition: is_collapse_ok.
+void collapse_to(RemeshState& state, HalfedgeIndex h, const Eigen::Vector3d& x, double t);
+/// The mesh stays a closed 2-manifold when the edge of h collapses (link condition).
+bool is_collapse_ok(const RemeshState& state, HalfedgeIndex h);
+
 /// Moves every vertex `factor` of the way to its ring's centroid, in the plane that keeps the volume.
 void smooth_tangentially(RemeshState& state, double factor);
 

@@ -40,7 +40,8 @@ AngleError angle_error(double angle, double edge) {
   AngleError error{0, std::abs(*mean_contact_angle(drop) - angle)};
   for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
     if (drop.contact()[v] == Contact::line)
-      error.virtual_work = std::max(error.virtual_work, std::abs(std::acos(contact_line_vertex(drop, v)->energy_cosine) - angle));
+      error.virtual_work =
+          std::max(error.virtual_work, std::abs(std::acos(contact_line_vertex(drop, v)->energy_cosine) - angle));
   return error;
 }
 
@@ -88,9 +89,9 @@ double line_speed(double receding, double advancing, ContactForce force) {
 
 TEST(ContactAngle, TheLineAdvancesRecedesOrStays) {
   for (const ContactForce force : {ContactForce::measured_angle, ContactForce::virtual_work}) {
-    EXPECT_GT(line_speed(radians(30), radians(60), force), 0);   // wetter: outward
+    EXPECT_GT(line_speed(radians(30), radians(60), force), 0);    // wetter: outward
     EXPECT_LT(line_speed(radians(120), radians(150), force), 0);  // drier: inward
-    EXPECT_EQ(line_speed(radians(60), radians(120), force), 0);  // between: hysteresis
+    EXPECT_EQ(line_speed(radians(60), radians(120), force), 0);   // between: hysteresis
   }
 }
 

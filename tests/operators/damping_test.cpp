@@ -91,25 +91,9 @@ TEST(Damping, RigidMotionIsLeftAloneIfAsked) {
   DampingOptions options;
   options.damping_rate = 30;
   options.viscosity_coefficient = 0.3;
-  options.tangential_damping = 1;
   options.keep_rigid_motion = true;
   apply_damping(drop, geometry_of(drop), 1e-2, options);
   EXPECT_LT((drop.velocities() - v0).cwiseAbs().maxCoeff(), 1e-12);
-}
-
-TEST(Damping, TangentialDampingKeepsTheNormalSpeed) {
-  Drop drop(make_icosphere({0, 0, 0}, 0.2, 6));
-  drop.velocities().setRandom();
-  const SurfaceGeometry& geometry = geometry_of(drop);
-  const Eigen::Matrix3Xd v0 = drop.velocities();
-  DampingOptions options;
-  options.tangential_damping = 1;
-  apply_damping(drop, geometry, 1e-3, options);
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
-    const Vector3d n = geometry.normal(i), v = drop.velocities().col(i);
-    EXPECT_NEAR(v.dot(n), v0.col(i).dot(n), 1e-14);
-    EXPECT_LT((v - v.dot(n) * n).norm(), 1e-14);
-  }
 }
 
 TEST(Damping, PoorVerticesTakeOnTheirNeighboursMean) {

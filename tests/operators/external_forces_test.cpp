@@ -19,7 +19,8 @@ constexpr double g = 981;
 Drop drop_at(const Vector3d& center, double radius = 0.2) { return Drop(make_icosphere(center, radius, 4)); }
 
 /// Steps of external forces alone; n starts at 1.
-void run(Drop& drop, const std::vector<Solid>& solids, int steps, double dt, const ExternalForcesOptions& options = {}) {
+void run(Drop& drop, const std::vector<Solid>& solids, int steps, double dt,
+         const ExternalForcesOptions& options = {}) {
   for (int n = 1; n <= steps; ++n) apply_external_forces(drop, solids, n * dt, dt, options);
 }
 

@@ -6,9 +6,14 @@
 #include "support/judge.h"
 #include "support/random_shapes.h"
 
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <map>
+#include <optional>
 #include <set>
 
 namespace meniscus {
@@ -221,6 +226,36 @@ TEST(Remesh, KeepsTheShapeOfABoxWithSharpEdges) {
   EXPECT_EQ(corners, 8);
 }
 
+/// How far a point is from the surface of the unit box about the origin.
+double distance_to_unit_box(const Vector3d& x) { return std::abs(x.cwiseAbs().maxCoeff() - 0.5); }
+
+TEST(Remesh, KeepsAUnitBoxWithSharpEdgesExactly) {
+  for (const double given : {1.0, 0.25, 0.1})
+    for (const double edge : {0.5, 0.35, 0.2, 0.1, 0.06})
+      for (const double smoothing : {0.0, 0.5}) {
+        Drop drop(make_box(Vector3d::Zero(), {1, 1, 1}, given));
+        RemeshOptions options = band(0.5 * edge, 1.5 * edge, 8, smoothing);
+        options.feature_angle = 0.7;
+        remesh_to_band(drop, options);
+        EXPECT_EQ(judge::defect(drop), "");
+        EXPECT_NEAR(drop.volume(), 1, 1e-12) << given << " " << edge;
+        for (const auto v : drop.mesh().vertices())
+          EXPECT_LT(distance_to_unit_box(to_eigen(drop.mesh().point(v))), 1e-12);
+      }
+}
+
+TEST(Remesh, NearlyKeepsAUnitBoxWithoutFeatures) {
+  for (const double given : {1.0, 0.25, 0.1})
+    for (const double edge : {0.35, 0.2, 0.1, 0.06}) {
+      Drop drop(make_box(Vector3d::Zero(), {1, 1, 1}, given));
+      remesh_to_band(drop, band(0.5 * edge, 1.5 * edge, 8, 0.5));
+      EXPECT_EQ(judge::defect(drop), "");
+      EXPECT_NEAR(drop.volume(), 1, 0.5 * edge * edge) << given << " " << edge;  // chamfers along 12 edges
+      for (const auto v : drop.mesh().vertices())
+        EXPECT_LT(distance_to_unit_box(to_eigen(drop.mesh().point(v))), 0.5 * edge) << given << " " << edge;
+    }
+}
+
 /// A cap on the plane z = 0, its bottom wetted.
 Drop cap_on_plane(double angle, double edge) {
   Drop drop(make_cap(Vector3d::Zero(), Vector3d::UnitZ(), 1, angle, edge));
@@ -298,6 +333,132 @@ TEST(Remesh, NeverFlipsTheContactLine) {
   EXPECT_GT(report.flips, 20u);
   EXPECT_EQ(report.splits + report.collapses, 0u);
   EXPECT_EQ(contact_line(drop), before);
+}
+
+/// Faces of three colliding vertices that do not face the plane z = 0.
+std::size_t count_turned(const Drop& drop) {
+  std::size_t count = 0;
+  const auto x = drop.positions();
+  for (const auto& [a, b, c] : drop.connectivity().triangles()) {
+    if (a == Connectivity::removed || !is_colliding(drop.contact()[a]) || !is_colliding(drop.contact()[b]) ||
+        !is_colliding(drop.contact()[c]))
+      continue;
+    count += !(Vector3d(x.col(b) - x.col(a)).cross(Vector3d(x.col(c) - x.col(a))).z() < 0);
+  }
+  return count;
+}
+
+/// Colliding vertices are marked as on the line just if they have a free neighbour.
+bool has_true_contact(const Drop& drop) {
+  for (const auto v : drop.mesh().vertices()) {
+    if (!is_colliding(drop.contact()[v])) continue;
+    const Ring ring = drop.connectivity().ring(v);
+    bool has_free = false;
+    for (int k = 0; k < ring.degree; ++k) has_free |= !is_colliding(drop.contact()[ring.neighbour[k]]);
+    if (has_free != (drop.contact()[v] == Contact::line)) return false;
+  }
+  return true;
+}
+
+/// Moves every `stride`th vertex of the line of a cap of radius 1 inward.
+void push_line_inward(Drop& drop, double by, int stride) {
+  int count = 0;
+  for (const auto v : drop.mesh().vertices())
+    if (drop.contact()[v] == Contact::line && count++ % stride == 0)
+      drop.mesh().point(v) = to_point((1 - by) * to_eigen(drop.mesh().point(v)));
+}
+
+TEST(Remesh, UnfoldsTheWettedAreaThatTheLineOvertook) {
+  std::size_t turned = 0;
+  for (const double angle : {0.6, 1.1, 1.5, 2.0, 2.4})
+    for (const double share : {0.5, 0.8, 1.1})
+      for (const int stride : {1, 2, 3, 5, 1000}) {
+        constexpr double edge = 0.1;
+        Drop drop = cap_on_plane(angle, edge);
+        push_line_inward(drop, share * edge, stride);
+        turned += count_turned(drop);
+        remesh(drop, band(0.5 * edge, 1.5 * edge, 3));
+        EXPECT_EQ(count_turned(drop), 0u) << angle << " " << share << " " << stride;
+        EXPECT_TRUE(has_true_contact(drop));
+        EXPECT_EQ(judge::defect(drop), "") << angle << " " << share << " " << stride;
+      }
+  EXPECT_GT(turned, 100u);  // or nothing was tested
+}
+
+TEST(Remesh, LiftsAFilmOfNoThickness) {
+  Drop drop = cap_on_plane(0.9, 0.1);
+  // Free neighbours of the line fall onto the plane, inside of it: their faces with the line lie on wet ones.
+  std::vector<VertexIndex> fallen;
+  for (const auto v : drop.mesh().vertices()) {
+    const Ring ring = drop.connectivity().ring(v);
+    bool is_near_line = false, is_near_fallen = false;
+    for (int k = 0; k < ring.degree; ++k) {
+      is_near_line |= drop.contact()[ring.neighbour[k]] == Contact::line;
+      for (const auto w : fallen) is_near_fallen |= w == VertexIndex(ring.neighbour[k]);
+    }
+    if (drop.contact()[v] == Contact::free && is_near_line && !is_near_fallen) fallen.push_back(v);
+  }
+  ASSERT_GT(fallen.size(), 5u);
+  for (const auto v : fallen) {
+    Point& p = drop.mesh().point(v);
+    p = Point(p.x(), p.y(), 0);
+    drop.contact()[v] = Contact::line;
+    drop.contact_solid()[v] = 0;
+    drop.contact_normals().col(v) = Vector3d::UnitZ();
+  }
+  EXPECT_GT(count_turned(drop), 5u);
+  const auto report = remesh(drop, band(0.05, 0.15, 3));
+  EXPECT_GT(report.lifts, 0u);
+  EXPECT_EQ(count_turned(drop), 0u);
+  EXPECT_TRUE(has_true_contact(drop));
+  EXPECT_EQ(judge::defect(drop), "");
+}
+
+/// Shakes every vertex by up to `by`; colliding ones stay on the plane z = 0, free ones above it.
+void shake(Drop& drop, double by, Numbers& numbers) {
+  for (const auto v : drop.mesh().vertices()) {
+    const Vector3d x = to_eigen(drop.mesh().point(v));
+    Vector3d step = numbers.vector(by);
+    if (is_colliding(drop.contact()[v]) || x.z() + step.z() < 0.5 * x.z()) step.z() = 0;
+    drop.mesh().point(v) = to_point(x + step);
+  }
+}
+
+/// Nothing if no piece is more than a tetrahedron.
+std::optional<Drop> largest_piece(const Drop& drop) {
+  SplitReport report;
+  const std::vector<Drop> pieces = split_components(drop, report);
+  std::size_t largest = 0;
+  for (std::size_t k = 1; k < pieces.size(); ++k)
+    if (pieces[k].volume() > pieces[largest].volume()) largest = k;
+  return pieces.empty() ? std::nullopt : std::make_optional(pieces[largest]);
+}
+
+// From sound meshes remesh makes none that lie on themselves, whatever the contact angle and the band.
+TEST(Remesh, MakesNoFilmOnTheSolid) {
+  int tried = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    Numbers numbers(seed);
+    Drop drop = cap_on_plane(numbers.between(0.25, 2.8), numbers.between(0.06, 0.2));
+    for (int round = 0; round < 4; ++round) {
+      const double h = mean_edge(drop.mesh());
+      shake(drop, 0.25 * h, numbers);
+      if (count_turned(drop) > 0 || judge::meets_itself(drop.mesh())) break;
+      ++tried;
+      const double low = h * numbers.log_between(0.4, 1.6);
+      if (remesh(drop, band(low, 3 * low, 3)).cuts > 0) {
+        const auto piece = largest_piece(drop);
+        if (!piece) break;
+        drop = *piece;
+      }
+      ASSERT_EQ(count_turned(drop), 0u) << seed << " " << round;
+      ASSERT_TRUE(has_true_contact(drop)) << seed << " " << round;
+      ASSERT_EQ(judge::defect(drop), "") << seed << " " << round;
+      for (const auto v : drop.mesh().vertices())
+        ASSERT_TRUE(is_colliding(drop.contact()[v]) || drop.mesh().point(v).z() > 0) << seed << " " << round;
+    }
+  }
+  EXPECT_GT(tried, 60);
 }
 
 TEST(Remesh, MakesTheWettedAreaCoarser) {

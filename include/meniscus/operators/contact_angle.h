@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "meniscus/state/body_pressure.h"
 #include "meniscus/state/contact_line.h"
 #include "meniscus/state/drop.h"
 #include "meniscus/state/solid.h"
@@ -16,9 +17,10 @@ enum class ContactForce {
 
 struct ContactAngleOptions {
   ContactForce force = ContactForce::virtual_work;
-  double boundary_force = 1;     ///< alpha of Eq 8, cm/s of contact line speed per radian and step
-  double tension_over_mass = 0;  ///< virtual_work: c = 2 sigma/(rho R), cm^3/s^2 per cm of energy gradient
+  double boundary_force = 1;           ///< alpha of Eq 8, cm/s of contact line speed per radian and step
+  double tension_over_mass = 0;        ///< virtual_work: c = 2 sigma/(rho R), cm^3/s^2 per cm of energy gradient
   double line_friction_over_mass = 0;  ///< virtual_work: 2 xi/(rho R), cm/s, xi in g/(cm s) of contact line
+  BodyPressure body_pressure;          ///< virtual_work: that of the last flow
 };
 
 struct ContactAngleReport {

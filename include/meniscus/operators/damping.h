@@ -13,13 +13,6 @@ struct DampingOptions {
   double poor_quality_smoothing = 0.5;
   /// Whether the rigid motion of the drop is left alone: in contact, what the solids leave of it.
   bool keep_rigid_motion = false;
-  /// Share (0..1) of the deformation's velocity along the surface that is taken away. That part
-  /// moves vertices over the surface and does not change its shape; without it gravity makes
-  /// the vertices of a resting drop slide down.
-  double tangential_damping = 0;
-  /// Whether positions, which advection moved with the old velocities, are moved by (v_new - v_old) dt
-  /// too, as Eq 2 does: the step is then symplectic Euler with all forces at once.
-  bool correct_positions = false;
   SolverOptions solver;  ///< for viscosity beyond the explicit limit
 };
 
@@ -36,7 +29,7 @@ struct DampingReport {
 /// so that it is stable at any dt.
 ///
 /// Reads positions, `geometry` (of the current positions), contact state and poor quality marks;
-/// writes velocities, and positions if asked. Colliding vertices keep their velocity along the solid's normal.
+/// writes velocities. Colliding vertices keep their velocity along the solid's normal.
 /// Throws NumericsError if an implicit solve does not converge.
 DampingReport apply_damping(Drop& drop, const SurfaceGeometry& geometry, double dt, const DampingOptions& options);
 

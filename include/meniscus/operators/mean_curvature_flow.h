@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "meniscus/state/body_pressure.h"
 #include "meniscus/state/drop.h"
 
 namespace meniscus {
@@ -17,6 +18,8 @@ struct MeanCurvatureFlowOptions {
   /// Whether an edge's negative cotangent weight counts as zero, which keeps large steps from
   /// turning triangles over.
   bool clamp_negative_weights = true;
+  /// Flows by the curvature K less this pressure: K = p + const at rest, Young-Laplace.
+  BodyPressure body_pressure;
   SolverOptions solver;
 };
 
@@ -24,6 +27,8 @@ struct MeanCurvatureFlowOptions {
 /// (M + gamma dt L) X_new = M X_old for the displacement, (M + gamma dt L) d = -gamma dt L X_old,
 /// starting from the last step's, then x += d and v += d/dt.
 /// M: lumped areas (mixed Voronoi), L: cotangent stiffness, positive semidefinite.
+///
+/// A body pressure b adds gamma dt b(x_i) w_i to the right-hand side, w_i = dV/dx_i.
 ///
 /// Reads positions, `geometry` (of the current positions) and contact state; writes positions,
 /// velocities and displacements. gamma dt = 0 does nothing. With dt = 0 the velocity is left alone.

@@ -34,17 +34,18 @@ struct RefusedEdges {
   std::size_t near_intersection = 0;  ///< remesh_to_band keeps away from where the surface met itself
 };
 
-/// What remesh did. After it, splits + collapses + flips + cuts == 0 means that the mesh is as it was.
+/// What remesh did. After it, changed() == false means that the mesh is as it was.
 struct RemeshReport {
   std::size_t splits = 0, collapses = 0, flips = 0;
   std::size_t cuts = 0;     ///< necks cut and capped; split_components tells whether the drop fell apart
+  std::size_t lifts = 0;    ///< vertices taken off a solid, or moved along it, where faces lay on each other
   std::size_t deleted = 0;  ///< remesh_to_band only: tetrahedra and inside-out specks that cuts left
   int passes = 0;
   int retries = 0;  ///< remesh_to_band only: runs thrown away because the surface met itself
   std::size_t edges_below = 0, edges_above = 0;  ///< edges left out of the band
   RefusedEdges refused;                          ///< and why: the fields sum to edges_below + edges_above
 
-  bool changed() const { return splits + collapses + flips + cuts > 0; }
+  bool changed() const { return splits + collapses + flips + cuts + lifts > 0; }
 };
 
 /// Throws UsageError unless 0 < edge_min, 2 edge_min < edge_max, all finite, the wetted weight in
@@ -59,6 +60,11 @@ void check_options(const RemeshOptions& options);
 /// shortest first, to the point that keeps the volume; flips edges of negative cotangent weight, but
 /// none of the contact line. Inside the wetted area lengths count times band.wetted_weight. A
 /// collapse that a 3-cycle forbids cuts the drop along that cycle and caps both sides.
+///
+/// At a sharp edge, or a vertex that features keep, the midpoint's correction is left out. On solids,
+/// no operation makes a face of three colliding vertices that does not face its solid; where moving
+/// the contact line has made one, wetted vertices that the line overtook join it, and a film of no
+/// thickness above the wetted area is lifted by 0.02 edge_min.
 ///
 /// It ends: no collapse or flip makes an edge too long, and no flip makes one too short, so the only
 /// new work is short edges made by splits, and each collapse takes a vertex away. max_passes bounds

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/operators/tangential_damping.h"
+
+#include "meniscus/geometry/rigid_motion.h"
+#include "meniscus/geometry/shapes.h"
+
+#include <gtest/gtest.h>
+
+namespace meniscus {
+namespace {
+
+using Eigen::Vector3d;
+
+const SurfaceGeometry& geometry_of(Drop& drop) {
+  drop.workspace().geometry.compute(std::as_const(drop).positions(), drop.connectivity());
+  return drop.workspace().geometry;
+}
+
+TEST(TangentialDamping, KeepsTheNormalSpeedOfTheDeformation) {
+  Drop drop(make_icosphere({0, 0, 0}, 0.2, 6));
+  drop.velocities().setRandom();
+  const SurfaceGeometry& geometry = geometry_of(drop);
+  const Eigen::Matrix3Xd x0 = drop.positions(), v0 = drop.velocities();
+  const RigidMotion rigid = fit_rigid_motion(drop.positions(), drop.velocities(), geometry);
+  const double dt = 1e-3;
+  remove_tangential_deformation(drop, geometry, dt);
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
+    const Vector3d n = geometry.normal(i), base = rigid.at(x0.col(i));
+    const Vector3d u0 = v0.col(i) - base, u = drop.velocities().col(i) - base;
+    EXPECT_NEAR(u.dot(n), u0.dot(n), 1e-14);
+    EXPECT_LT((u - u.dot(n) * n).norm(), 1e-14);
+    EXPECT_LT((drop.positions().col(i) - x0.col(i) - dt * (u - u0)).norm(), 1e-16);
+  }
+}
+
+TEST(TangentialDamping, LeavesRigidMotionAndCollidingVerticesAlone) {
+  Drop drop(make_ellipsoid({0.5, -1, 2}, {0.3, 0.2, 0.15}, 0.05));
+  for (Eigen::Index i = 0; i < drop.positions().cols(); ++i)
+    drop.velocities().col(i) = Vector3d(1, 2, -3) + Vector3d(4, -5, 6).cross(Vector3d(drop.positions().col(i)));
+  const Eigen::Matrix3Xd v0 = drop.velocities();
+  remove_tangential_deformation(drop, geometry_of(drop), 1e-2);
+  EXPECT_LT((drop.velocities() - v0).cwiseAbs().maxCoeff(), 1e-12);
+  drop.velocities().setRandom();
+  drop.contact()[5] = Contact::wetted;
+  drop.contact_normals().col(5) = Vector3d::UnitZ();
+  const Vector3d v5 = drop.velocities().col(5);
+  remove_tangential_deformation(drop, geometry_of(drop), 1e-2);
+  EXPECT_EQ(drop.velocities().col(5), v5);
+}
+
+TEST(TangentialDamping, OnASolidOnlyTheMotionAlongItIsRigid) {
+  // A drop on a plane that falls as a whole only deforms: its sides must not slide down.
+  Drop drop(make_cap({0, 0, 0}, {0, 0, 1}, 0.2, 1.5707963267948966, 0.03));
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+    if (drop.positions()(2, i) < 1e-9) {
+      drop.contact()[i] = Contact::wetted;
+      drop.contact_normals().col(i) = Vector3d::UnitZ();
+    }
+  drop.velocities().colwise() = Vector3d(0, 0, -1);
+  const SurfaceGeometry& geometry = geometry_of(drop);
+  remove_tangential_deformation(drop, geometry, 1e-3);
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
+    if (is_colliding(drop.contact()[i])) continue;
+    const Vector3d n = geometry.normal(i), v = drop.velocities().col(i);
+    EXPECT_LT((v + n.z() * n).norm(), 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace meniscus

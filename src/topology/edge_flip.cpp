@@ -21,7 +21,15 @@ bool would_disturb_contact_line(const RemeshState& state, HalfedgeIndex h) {
   const Mesh& mesh = state.mesh;
   if (state.is_contact_line(h)) return true;
   const bool is_wet = state.inside_wetted_area(h);
-  return state.colliding(state.apex(h)) && state.colliding(state.apex(mesh.opposite(h))) && !is_wet;
+  const auto o = state.apex(h), p = state.apex(mesh.opposite(h));
+  if (!is_wet) return state.colliding(o) && state.colliding(p);
+  // Both new faces must face the solid, or the edge would no longer lie inside the wetted area.
+  const auto faces_solid = [&](VertexIndex v, VertexIndex first, VertexIndex second) {
+    const Eigen::Vector3d x = state.point(v);
+    return (state.point(first) - x).cross(state.point(second) - x).dot(state.contact_normal(first)) < 0 &&
+           (state.point(first) - x).cross(state.point(second) - x).dot(state.contact_normal(second)) < 0;
+  };
+  return !faces_solid(mesh.source(h), p, o) || !faces_solid(mesh.target(h), o, p);
 }
 
 /// The faces are not nearly coplanar, or one of the new ones would point away from them.

@@ -69,7 +69,8 @@ void split_long_edges(RemeshState& state) {
     return a.squared_length != b.squared_length ? a.squared_length < b.squared_length : a.edge > b.edge;
   };
   auto& now = state.scratch.splits_now;
-  while (!state.scratch.splits.empty()) {
+  int rounds = 60;  // each halves edges, so that no sound mesh needs as many; folded ones might never end
+  while (!state.scratch.splits.empty() && rounds-- > 0) {
     now.clear();
     std::swap(now, state.scratch.splits);
     empty_heap(state, now, later, [&](HalfedgeIndex h) { return try_split(state, h); });

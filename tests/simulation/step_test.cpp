@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/simulation/step.h"
 
-#include "meniscus/geometry/rigid_motion.h"
+#include "meniscus/geometry/measure.h"
 #include "meniscus/geometry/shapes.h"
 #include "meniscus/simulation/oscillation.h"
 #include "meniscus/simulation/simulation.h"
+#include "meniscus/state/contact_line.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
 #include <cmath>
+#include <tuple>
 
 namespace meniscus {
 namespace {
@@ -54,22 +56,36 @@ TEST(Step, VolumeDoesNotDriftInTenThousandSteps) {
   EXPECT_LT(report.worst_volume_error, 1e-6);
 }
 
+/// How far the centre of a ball is from free fall after 100 steps, relative to the way.
+double free_fall_error(Level level, bool remesh) {
+  StepOptions options;
+  options.level = level;
+  options.paper.damping_rate = 0;
+  options.remesh = remesh;
+  const double dt = 1.0 / 960;
+  const int n = 100;
+  Drop drop(make_icosphere({0, 0, 0}, 0.2, 8));
+  StepReport report;
+  for (int k = 1; k <= n; ++k) drop = step(std::move(drop), k * dt, dt, options, report);
+  const double expected = -0.5 * 981 * dt * dt * n * (n + 1);
+  return std::abs(solid_centroid(drop.mesh()).z() / expected - 1);
+}
+
 TEST(Step, AWholeStepInFreeFallIsFreeFall) {
   for (const Level level : {Level::paper, Level::calibrated}) {
-    StepOptions options;
-    options.level = level;
-    options.paper.damping_rate = 0;
-    const double dt = 1.0 / 960;
-    Drop drop(make_icosphere({0, 0, 0}, 0.2, 8));
-    StepReport report;
-    const int n = 100;
-    for (int k = 1; k <= n; ++k) drop = step(std::move(drop), k * dt, dt, options, report);
-    const double expected = -0.5 * 981 * dt * dt * n * (n + 1);
-    drop.workspace().geometry.compute(std::as_const(drop).positions(), drop.connectivity());
-    const double height = fit_rigid_motion(drop.positions(), drop.velocities(), drop.workspace().geometry).center.z();
-    EXPECT_NEAR(height, expected, 2e-5 * std::abs(expected));
-    EXPECT_NEAR(drop.volume() / drop.target_volume(), 1, 1e-6);
+    EXPECT_LT(free_fall_error(level, false), 1e-7);
+    // On the uneven mesh that the default band makes of this ball (about 100 vertices) surface tension
+    // does not balance to the last digit.
+    EXPECT_LT(free_fall_error(level, true), 5e-4);
   }
+}
+
+/// The fastest vertex (cm/s).
+double top_speed(const Drop& drop) {
+  double speed = 0;
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+    if (drop.connectivity().degree(i) > 0) speed = std::max(speed, drop.velocities().col(i).norm());
+  return speed;
 }
 
 TEST(Step, StaysFiniteAndSoundAtAnyTimeStep) {
@@ -123,7 +139,41 @@ TEST(Simulation, DropsOnAPlateKeepTheirVolumeAndComeToRest) {
   for (const Drop& drop : simulation.drops()) {
     EXPECT_NEAR(drop.volume() / drop.target_volume(), 1, 1e-6);
     EXPECT_GE(drop.positions().row(2).minCoeff(), -1e-12);
-    EXPECT_LT(drop.velocities().colwise().norm().maxCoeff(), 1.0);
+    EXPECT_LT(top_speed(drop), 0.1);
+  }
+}
+
+/// A drop of R = 0.2 cm of water, laid on a plane without hysteresis: height and mean contact radius at
+/// rest over those of Young-Laplace (integrated elsewhere: the sources of data/scenes/resting_*.json).
+struct RestingError {
+  double height, radius;
+};
+RestingError resting_error(double angle_degrees, double height, double radius) {
+  Scene scene = default_scene();
+  scene.solids.emplace_back();
+  scene.solids[0].advancing_angle = scene.solids[0].receding_angle = angle_degrees * M_PI / 180;
+  scene.time_step = 1.0 / 960;
+  scene.mesh.edge_min = 0.02;
+  scene.mesh.edge_max = 0.06;
+  scene.drops.emplace_back();
+  scene.drops[0].center = Vector3d(0, 0, 0.2);
+  Simulation simulation(scene);
+  while (simulation.time() < 0.8) simulation.step();
+  const Drop& drop = simulation.drops().front();
+  EXPECT_LT(top_speed(drop), 0.1);
+  double top = 0;
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+    if (drop.connectivity().degree(i) > 0) top = std::max(top, drop.positions()(2, i));
+  return {top / height - 1, std::sqrt(wetted_area(drop) / M_PI) / radius - 1};
+}
+
+TEST(Simulation, CalibratedDropsRestAtYoungLaplace) {
+  for (const auto& [angle, height, radius] : {std::tuple{60.0, 0.167592241, 0.334000777},
+                                              {90.0, 0.225321022, 0.267454373},
+                                              {120.0, 0.274691987, 0.209967817}}) {
+    const RestingError error = resting_error(angle, height, radius);
+    EXPECT_LT(std::abs(error.height), 0.01) << angle;
+    EXPECT_LT(std::abs(error.radius), 0.02) << angle;
   }
 }
 

@@ -14,7 +14,8 @@ namespace meniscus {
 /// Not in the paper.
 ///
 /// Reads `geometry` (normals and areas; that of the step's start will do) and contact state; writes
-/// velocities and positions of vertices that do not collide. A rigidly moving drop stays as it is.
+/// velocities and positions of vertices that do not collide. A rigidly moving drop stays as it is,
+/// and a drop in flight keeps its linear and angular momentum (of the lumped areas).
 void remove_tangential_deformation(Drop& drop, const SurfaceGeometry& geometry, double dt);
 
 }  // namespace meniscus

@@ -191,33 +191,29 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
   apply_damping(drop, geometry, dt, damping_options(options));
   clock.done(Stage::damping);
 
-  const auto flow = [&] {
-    const SolveReport solve = flow_by_mean_curvature(drop, geometry, dt, flow_options(options, pressure, tension, dt));
-    report.solver_iterations = std::max(report.solver_iterations, solve.iterations);
-    clock.done(Stage::curvature_flow);
-  };
-  const auto move_contact_line = [&] {
-    if (forces.colliding > 0)
-      apply_contact_angle(drop, solids, geometry, time, dt, contact_angle_options(options, pressure, tension));
-    clock.done(Stage::contact_angle);
-  };
-  move_contact_line();
-  flow();
-  if (options.level != Level::paper) {
-    remove_tangential_deformation(drop, geometry, dt);
-    clock.done(Stage::damping);
-  }
+  // The paper moves the contact line after the flow; there the surface stands back by what the volume
+  // correction will give it again, and the angle is off by as much: the line moves before.
+  if (forces.colliding > 0)
+    apply_contact_angle(drop, solids, geometry, time, dt, contact_angle_options(options, pressure, tension));
+  clock.done(Stage::contact_angle);
+
+  const SolveReport flow = flow_by_mean_curvature(drop, geometry, dt, flow_options(options, pressure, tension, dt));
+  report.solver_iterations = std::max(report.solver_iterations, flow.iterations);
+  clock.done(Stage::curvature_flow);
+
+  remove_tangential_deformation(drop, geometry, dt);
+  clock.done(Stage::damping);
 
   const VolumeCorrectionReport volume = correct_volume(drop, geometry, dt, volume_options(options, drop));
   report.limited_volume += volume.limited;
-  if (volume.relative_error == volume.relative_error)
+  if (!std::isnan(volume.relative_error))
     report.worst_volume_error = std::max(report.worst_volume_error, std::abs(volume.relative_error));
   clock.done(Stage::volume_correction);
 
   std::vector<Drop> pieces;
   RemeshReport remeshed;
   if (options.remesh) remeshed = remesher.remesh(drop, remesh_options(options));
-  report.edge_operations += remeshed.splits + remeshed.collapses + remeshed.flips;
+  report.edge_operations += remeshed.splits + remeshed.collapses + remeshed.flips + remeshed.lifts;
   report.cuts += remeshed.cuts;
   clock.done(Stage::remesh);
 

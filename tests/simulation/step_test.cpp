@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/simulation/step.h"
 
+#include "meniscus/geometry/inspect.h"
 #include "meniscus/geometry/measure.h"
 #include "meniscus/geometry/shapes.h"
 #include "meniscus/simulation/oscillation.h"
@@ -165,6 +166,27 @@ RestingError resting_error(double angle_degrees, double height, double radius) {
   for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
     if (drop.connectivity().degree(i) > 0) top = std::max(top, drop.positions()(2, i));
   return {top / height - 1, std::sqrt(wetted_area(drop) / M_PI) / radius - 1};
+}
+
+TEST(Simulation, ADumbbellPinchesIntoSoundDropsAndTheLedgerAddsUp) {
+  Scene scene = default_scene();
+  scene.gravity.setZero();
+  scene.time_step = 5e-4;
+  scene.mesh.edge_min = 0.02;
+  scene.mesh.edge_max = 0.06;
+  std::vector<Drop> drops;
+  drops.emplace_back(make_dumbbell(1.2, 0.2, 0.05, 0.04));
+  const double volume = drops.front().target_volume();
+  Simulation simulation(scene, std::move(drops));
+  std::size_t cuts = 0;
+  for (int n = 0; n < 60; ++n) {
+    cuts += simulation.step().cuts;
+    EXPECT_NEAR(simulation.target_volume() / volume, 1, 1e-12);
+    EXPECT_NEAR(simulation.volume() / volume, 1, 5e-3);
+    for (const Drop& drop : simulation.drops()) EXPECT_TRUE(inspect(to_mesh_data(drop.mesh())).sound) << n;
+  }
+  EXPECT_GE(cuts, 1u);
+  EXPECT_GE(simulation.drops().size(), 2u);
 }
 
 TEST(Simulation, CalibratedDropsRestAtYoungLaplace) {

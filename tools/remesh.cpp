@@ -44,6 +44,7 @@ void add_counts(Report& report, const RemeshReport& remesh) {
   report.add("splits", remesh.splits);
   report.add("collapses", remesh.collapses);
   report.add("flips", remesh.flips);
+  report.add("lifts", remesh.lifts);
   report.add("cuts", remesh.cuts);
   report.add("passes", remesh.passes);
   report.add("retries", remesh.retries);

@@ -156,8 +156,8 @@ SolveReport SpdSolver::solve(const Connectivity& connectivity, const RingMatrix&
   report.iterations = progress.iterations;
   report.converged = progress.is_converged() && !progress.broken;
   const double residual_norm = total(progress.residual);
-  report.relative_residual = std::isfinite(residual_norm) ? std::sqrt(residual_norm / rhs_norm)
-                                                          : std::numeric_limits<double>::infinity();
+  report.relative_residual =
+      std::isfinite(residual_norm) ? std::sqrt(residual_norm / rhs_norm) : std::numeric_limits<double>::infinity();
   return report;
 }
 

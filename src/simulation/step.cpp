@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/simulation/step.h"
 
+#include "meniscus/core/error.h"
 #include "meniscus/operators/contact_angle.h"
 #include "meniscus/operators/damping.h"
 #include "meniscus/operators/external_forces.h"
@@ -8,6 +9,8 @@
 #include "meniscus/operators/tangential_damping.h"
 #include "meniscus/operators/volume_correction.h"
 #include "meniscus/topology/split.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -148,6 +151,8 @@ constexpr double largest_phase_squared = 2;
 /// this share of its ball's radius a substep, so that it meets the solid with its front and not as a whole.
 constexpr double largest_move = 0.5;
 constexpr int most_substeps = 256;
+/// Beyond this relative error of the volume a run has failed.
+constexpr double largest_volume_error = 2;
 
 /// How many substeps keep a step of this drop within the limits above.
 int num_substeps(Drop& drop, const std::vector<Solid>& solids, double time, double dt, const StepOptions& options) {
@@ -208,6 +213,11 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
   report.limited_volume += volume.limited;
   if (!std::isnan(volume.relative_error))
     report.worst_volume_error = std::max(report.worst_volume_error, std::abs(volume.relative_error));
+  if (std::abs(volume.relative_error) > largest_volume_error)
+    throw NumericsError(
+        fmt::format("drop {}: the surface turned over: its volume is {:.2g} times what it ought to be; use "
+                    "a smaller time step, or the level \"calibrated\"",
+                    drop.id(), 1 + volume.relative_error));
   clock.done(Stage::volume_correction);
 
   std::vector<Drop> pieces;

@@ -119,7 +119,8 @@ ContactAngleOptions contact_angle_options(const StepOptions& step, const BodyPre
   options.boundary_force = step.paper.boundary_force;
   options.tension_over_mass = tension;
   options.body_pressure = pressure;
-  options.line_friction_over_mass = contact_line_friction * tension / step.liquid.surface_tension;
+  if (step.liquid.surface_tension > 0)
+    options.line_friction_over_mass = contact_line_friction * tension / step.liquid.surface_tension;
   return options;
 }
 

@@ -168,6 +168,14 @@ RestingError resting_error(double angle_degrees, double height, double radius) {
   return {top / height - 1, std::sqrt(wetted_area(drop) / M_PI) / radius - 1};
 }
 
+TEST(Simulation, ALiquidWithoutTensionLandsWithFiniteNumbers) {
+  Scene scene = three_drops_on_a_plate();
+  scene.liquid.surface_tension = 0;
+  Simulation simulation(scene);
+  for (int n = 0; n < 20; ++n) simulation.step();  // throws NumericsError otherwise
+  for (const Drop& drop : simulation.drops()) EXPECT_TRUE(std::isfinite(top_speed(drop)));
+}
+
 TEST(Simulation, ADumbbellPinchesIntoSoundDropsAndTheLedgerAddsUp) {
   Scene scene = default_scene();
   scene.gravity.setZero();

@@ -12,11 +12,13 @@ namespace meniscus {
 namespace {
 
 using Triple = std::array<std::uint32_t, 3>;
+using Points = std::vector<std::array<double, 3>>;
 
-Point cgal_point(const MeshData& data, std::uint32_t v) { return to_point(point(data, v)); }
+Point cgal_point(const Points& points, std::uint32_t v) { return {points[v][0], points[v][1], points[v][2]}; }
+Eigen::Vector3d eigen_point(const Points& points, std::uint32_t v) { return Eigen::Vector3d::Map(points[v].data()); }
 
-Kernel::Triangle_3 triangle(const MeshData& data, const Triple& t) {
-  return {cgal_point(data, t[0]), cgal_point(data, t[1]), cgal_point(data, t[2])};
+Kernel::Triangle_3 triangle(const Points& points, const Triple& t) {
+  return {cgal_point(points, t[0]), cgal_point(points, t[1]), cgal_point(points, t[2])};
 }
 
 /// Turned so that the vertices shared with `other` come first; returns how many there are.
@@ -27,10 +29,10 @@ int shared_first(Triple& t, const Triple& other) {
 
 /// Whether a plane through the first vertex of both triangles, which they share, clearly parts the
 /// rest of them: the quick answer to most pairs. Says no if rounding could matter.
-bool is_clearly_apart(const MeshData& data, const Triple& s, const Triple& t) {
-  const Eigen::Vector3d v = point(data, s[0]);
-  const Eigen::Vector3d a = point(data, s[1]) - v, b = point(data, s[2]) - v;
-  const Eigen::Vector3d c = point(data, t[1]) - v, d = point(data, t[2]) - v;
+bool is_clearly_apart(const Points& points, const Triple& s, const Triple& t) {
+  const Eigen::Vector3d v = eigen_point(points, s[0]);
+  const Eigen::Vector3d a = eigen_point(points, s[1]) - v, b = eigen_point(points, s[2]) - v;
+  const Eigen::Vector3d c = eigen_point(points, t[1]) - v, d = eigen_point(points, t[2]) - v;
   const Eigen::Vector3d m =
       (a.normalized() + b.normalized()).normalized() - (c.normalized() + d.normalized()).normalized();
   const auto clearly_ahead = [](const Eigen::Vector3d& x, const Eigen::Vector3d& direction) {
@@ -39,28 +41,13 @@ bool is_clearly_apart(const MeshData& data, const Triple& s, const Triple& t) {
   return clearly_ahead(a, m) && clearly_ahead(b, m) && clearly_ahead(c, -m) && clearly_ahead(d, -m);
 }
 
-/// Whether two triangles of positive area, with at most two common vertices, meet elsewhere.
-bool meet_elsewhere(const MeshData& data, Triple s, Triple t) {
-  const Triple s_given = s;
-  const int num_shared = shared_first(s, t);
-  shared_first(t, s_given);
-  if (num_shared == 0) return CGAL::do_intersect(triangle(data, s), triangle(data, t));
-  if (num_shared == 1)  // they share more than the vertex if the side opposite in one meets the other
-    return !is_clearly_apart(data, s, t) &&
-           (CGAL::do_intersect(triangle(data, s), Kernel::Segment_3(cgal_point(data, t[1]), cgal_point(data, t[2]))) ||
-            CGAL::do_intersect(triangle(data, t), Kernel::Segment_3(cgal_point(data, s[1]), cgal_point(data, s[2]))));
-  const Point a = cgal_point(data, s[0]), b = cgal_point(data, s[1]);
-  const Point c = cgal_point(data, s[2]), d = cgal_point(data, t[2]);
-  return CGAL::orientation(a, b, c, d) == CGAL::COPLANAR && CGAL::coplanar_orientation(a, b, c, d) == CGAL::POSITIVE;
-}
-
 /// The triangles that can be judged, each set of three vertices once.
 std::vector<std::uint32_t> candidates(const MeshData& data) {
   std::vector<std::pair<Triple, std::uint32_t>> keys;
   for (std::uint32_t t = 0; t < data.triangles.size(); ++t) {
     Triple key = data.triangles[t];
     if (!is_measurable(data, key)) continue;
-    if (CGAL::collinear(cgal_point(data, key[0]), cgal_point(data, key[1]), cgal_point(data, key[2]))) continue;
+    if (CGAL::collinear(cgal_point(data.points, key[0]), cgal_point(data.points, key[1]), cgal_point(data.points, key[2]))) continue;
     std::sort(key.begin(), key.end());
     keys.emplace_back(key, t);
   }
@@ -76,6 +63,23 @@ std::vector<std::uint32_t> candidates(const MeshData& data) {
 struct Stop {};
 
 }  // namespace
+
+bool meet_elsewhere(const std::vector<std::array<double, 3>>& points, std::array<std::uint32_t, 3> s,
+                    std::array<std::uint32_t, 3> t) {
+  const Triple s_given = s;
+  const int num_shared = shared_first(s, t);
+  shared_first(t, s_given);
+  if (num_shared == 0) return CGAL::do_intersect(triangle(points, s), triangle(points, t));
+  if (num_shared == 1)  // they share more than the vertex if the side opposite in one meets the other
+    return !is_clearly_apart(points, s, t) &&
+           (CGAL::do_intersect(triangle(points, s),
+                               Kernel::Segment_3(cgal_point(points, t[1]), cgal_point(points, t[2]))) ||
+            CGAL::do_intersect(triangle(points, t),
+                               Kernel::Segment_3(cgal_point(points, s[1]), cgal_point(points, s[2]))));
+  const Point a = cgal_point(points, s[0]), b = cgal_point(points, s[1]);
+  const Point c = cgal_point(points, s[2]), d = cgal_point(points, t[2]);
+  return CGAL::orientation(a, b, c, d) == CGAL::COPLANAR && CGAL::coplanar_orientation(a, b, c, d) == CGAL::POSITIVE;
+}
 
 void for_each_pair_of_boxes(const std::vector<Eigen::AlignedBox3d>& boxes,
                             const std::function<bool(std::uint32_t, std::uint32_t)>& visit) {
@@ -114,7 +118,7 @@ std::vector<std::array<std::uint32_t, 2>> self_intersections(const MeshData& dat
   }
   for_each_pair_of_boxes(boxes, [&](std::uint32_t i, std::uint32_t j) {
     const std::uint32_t low = faces[std::min(i, j)], high = faces[std::max(i, j)];
-    if (meet_elsewhere(data, data.triangles[low], data.triangles[high])) pairs.push_back({low, high});
+    if (meet_elsewhere(data.points, data.triangles[low], data.triangles[high])) pairs.push_back({low, high});
     return pairs.size() < limit;
   });
   std::sort(pairs.begin(), pairs.end());

@@ -13,4 +13,9 @@ namespace meniscus {
 /// every run). O(n log^2 n) plus the number of pairs whose boxes overlap.
 std::vector<std::array<std::uint32_t, 2>> self_intersections(const MeshData& data, std::size_t limit);
 
+/// Whether two triangles of positive area meet elsewhere than in a vertex or edge that they share by
+/// index: the exact test behind self_intersections. Precondition: at most two common vertices.
+bool meet_elsewhere(const std::vector<std::array<double, 3>>& points, std::array<std::uint32_t, 3> s,
+                    std::array<std::uint32_t, 3> t);
+
 }  // namespace meniscus

@@ -2,6 +2,7 @@
 #include "meniscus/operators/external_forces.h"
 
 #include "meniscus/core/error.h"
+#include "meniscus/state/contact_line.h"
 
 #include <fmt/format.h>
 
@@ -46,17 +47,6 @@ void mark_wetted(const Drop& drop, std::vector<std::uint8_t>& wet) {
       wet[i] = colliding && previous;
       previous = colliding;
     }
-  }
-}
-
-/// Tells the contact line from the inside of the wetted area.
-void mark_contact_line(Drop& drop) {
-  Contact* contact = drop.contact();
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
-    if (contact[i] == Contact::free) continue;
-    const Ring ring = drop.connectivity().ring(i);
-    for (int k = 0; k < ring.degree; ++k)
-      if (contact[ring.neighbour[k]] == Contact::free) contact[i] = Contact::line;
   }
 }
 

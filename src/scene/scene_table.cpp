@@ -168,7 +168,7 @@ void add_sections(Keys<Scene>& keys) {
                   "factor on lengths inside the wetted area: coarser if small", MENISCUS_FIELD(mesh.wetted_weight)));
   keys.section("topology", "what may change a drop's connectivity",
                Keys<Scene>()
-                   .boolean("merge", "drops that touch become one (coming: accepted, has no effect yet)",
+                   .boolean("merge", "drops that touch become one",
                             MENISCUS_FIELD(topology.merge))
                    .boolean("self_merge", "a drop that touches itself fuses there (coming: only false for now)",
                             MENISCUS_FIELD(topology.self_merge))

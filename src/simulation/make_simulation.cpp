@@ -205,6 +205,8 @@ StepOptions make_step_options(const Scene& scene) {
   options.volume_correction = scene.volume_correction;
   options.band = scene.mesh;
   options.split = scene.topology.split;
+  options.merge = scene.topology.merge;
+  options.self_merge = scene.topology.self_merge;
   options.solver = scene.solver;
   return options;
 }

@@ -2,12 +2,13 @@
 #include "meniscus/simulation/simulation.h"
 
 #include "meniscus/operators/external_forces.h"
+#include "meniscus/simulation/approaching.h"
 
-#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 
 namespace meniscus {
 
@@ -31,30 +32,81 @@ Simulation::Simulation(const Scene& scene, std::vector<Drop> drops)
 StepReport Simulation::step() {
   ++num_steps_;
   time_ = static_cast<double>(num_steps_) * time_step_;
-  std::vector<std::vector<Drop>> pieces(drops_.size());
-  std::vector<StepReport> reports(drops_.size());
-  std::vector<std::exception_ptr> failures(drops_.size());
-  tbb::enumerable_thread_specific<Remesher> remeshers;
-  tbb::parallel_for(std::size_t{0}, drops_.size(), [&](std::size_t d) {
-    try {
-      pieces[d] = step_drop(std::move(drops_[d]), solids_, time_, time_step_, options_, remeshers.local(), reports[d]);
-    } catch (...) {
-      failures[d] = std::current_exception();
-    }
-  });
-  for (const std::exception_ptr& failure : failures)  // the first drop's, whichever thread was first
-    if (failure) std::rethrow_exception(failure);
-
   StepReport report;
-  drops_.clear();
-  for (std::size_t d = 0; d < pieces.size(); ++d) {
-    report += reports[d];
-    for (std::size_t k = 0; k < pieces[d].size(); ++k) {
-      if (k > 0) pieces[d][k].set_id(next_id_++);
-      drops_.push_back(std::move(pieces[d][k]));
-    }
+  step_all(report);
+  if (options_.merge) merge(drops_, places_, report);
+  report.triangles = 0;
+  for (Drop& drop : drops_) {
+    if (drop.id() == no_id) drop.set_id(next_id_++);
+    report.triangles += drop.mesh().number_of_faces();
   }
   return report;
+}
+
+void Simulation::step_all(StepReport& report) {
+  std::vector<Cluster> clusters;
+  if (options_.merge && drops_.size() > 1)
+    clusters = clusters_of_approaching_drops(drops_, time_step_, paths_);
+  else
+    for (std::uint32_t d = 0; d < drops_.size(); ++d) clusters.push_back({{d}, 1});
+  std::vector<std::vector<Drop>> results(clusters.size());
+  std::vector<StepReport> reports(clusters.size());
+  std::vector<std::exception_ptr> failures(clusters.size());
+  tbb::parallel_for(std::size_t{0}, clusters.size(), [&](std::size_t c) {
+    try {
+      std::vector<Drop> drops;
+      for (const std::uint32_t d : clusters[c].drops) drops.push_back(std::move(drops_[d]));
+      results[c] = step_cluster(std::move(drops), clusters[c].substeps, reports[c]);
+    } catch (...) {
+      failures[c] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& failure : failures)  // the first cluster's, whichever thread was first
+    if (failure) std::rethrow_exception(failure);
+  drops_.clear();
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    report += reports[c];
+    std::move(results[c].begin(), results[c].end(), std::back_inserter(drops_));
+  }
+}
+
+std::vector<Drop> Simulation::step_cluster(std::vector<Drop> drops, int substeps, StepReport& report) {
+  BroadPhase broad_phase;
+  const double dt = time_step_ / substeps;
+  for (int k = substeps - 1; k >= 0; --k) {
+    std::vector<Drop> next;
+    for (Drop& drop : drops) {
+      StepReport of_drop;
+      std::vector<Drop> pieces =
+          step_drop(std::move(drop), solids_, time_ - k * dt, dt, options_, remeshers_.local(), of_drop);
+      report += of_drop;
+      for (std::size_t p = 0; p < pieces.size(); ++p) {
+        if (p > 0) pieces[p].set_id(no_id);
+        next.push_back(std::move(pieces[p]));
+      }
+    }
+    drops = std::move(next);
+    if (k > 0) merge(drops, broad_phase, report);
+  }
+  return drops;
+}
+
+void Simulation::merge(std::vector<Drop>& drops, BroadPhase& broad_phase, StepReport& report) {
+  const double start = options_.clock ? options_.clock() : 0;
+  MergeOptions options;
+  options.remesh = remesh_options(options_);
+  options.keep_air = options_.keep_air;
+  options.self_merge = options_.self_merge;
+  const MergeReport merged = merge_touching_drops(drops, broad_phase, options, remeshers_);
+  report.merges += merged.merges;
+  report.folds += merged.folds;
+  report.refused += merged.refused;
+  report.retries += merged.retries;
+  report.cuts += merged.cuts;
+  report.deleted += merged.deleted;
+  report.overlap += merged.overlap;
+  report.air += merged.air;
+  if (options_.clock) report.stage_seconds[static_cast<std::size_t>(Stage::merge)] += options_.clock() - start;
 }
 
 double Simulation::volume() const {

@@ -8,6 +8,7 @@
 #include "meniscus/operators/mean_curvature_flow.h"
 #include "meniscus/operators/tangential_damping.h"
 #include "meniscus/operators/volume_correction.h"
+#include "meniscus/state/ledger.h"
 #include "meniscus/topology/split.h"
 
 #include <fmt/format.h>
@@ -137,13 +138,6 @@ VolumeCorrectionOptions volume_options(const StepOptions& step, const Drop& drop
   return options;
 }
 
-RemeshOptions remesh_options(const StepOptions& step) {
-  RemeshOptions options;
-  options.band = step.band;
-  options.cut_necks = step.split;
-  return options;
-}
-
 /// At most this much of a drop's lowest mode's phase, sqrt(2), passes in one substep of Level::calibrated:
 /// (omega dt)^2 = 4 c dt^2/R^2 <= 2. Beyond, one implicit step of the flow would shrink the drop by half.
 constexpr double largest_phase_squared = 2;
@@ -223,7 +217,8 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
 
   std::vector<Drop> pieces;
   RemeshReport remeshed;
-  if (options.remesh) remeshed = remesher.remesh(drop, remesh_options(options));
+  Ledger ledger;
+  if (options.remesh) remeshed = remesher.remesh(drop, remesh_options(options), &ledger);
   report.edge_operations += remeshed.splits + remeshed.collapses + remeshed.flips + remeshed.lifts;
   report.cuts += remeshed.cuts;
   clock.done(Stage::remesh);
@@ -232,7 +227,9 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
     SplitReport split;
     pieces = split_components(std::move(drop), split);
     report.deleted += split.deleted + split.deleted_empty;
+    restore_ledger(pieces, ledger);
   } else {
+    if (remeshed.changed()) restore_ledger(drop, ledger);
     pieces.push_back(std::move(drop));
   }
   clock.done(Stage::split);
@@ -241,9 +238,17 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
 
 }  // namespace
 
+RemeshOptions remesh_options(const StepOptions& step) {
+  RemeshOptions options;
+  options.band = step.band;
+  options.cut_necks = step.split;
+  return options;
+}
+
 const char* stage_name(Stage stage) {
   constexpr const char* names[num_stages] = {"external_forces", "geometry",          "damping", "curvature_flow",
-                                             "contact_angle",   "volume_correction", "remesh",  "split"};
+                                             "contact_angle",   "volume_correction", "remesh",  "split",
+                                             "merge"};
   return names[static_cast<std::size_t>(stage)];
 }
 
@@ -254,6 +259,12 @@ StepReport& StepReport::operator+=(const StepReport& other) {
   cuts += other.cuts;
   deleted += other.deleted;
   limited_volume += other.limited_volume;
+  merges += other.merges;
+  folds += other.folds;
+  refused += other.refused;
+  retries += other.retries;
+  overlap += other.overlap;
+  air += other.air;
   substeps = std::max(substeps, other.substeps);
   solver_iterations = std::max(solver_iterations, other.solver_iterations);
   worst_volume_error = std::max(worst_volume_error, other.worst_volume_error);

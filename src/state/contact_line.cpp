@@ -24,6 +24,16 @@ double stiffness_of(const Vector3d& opposite_edge, double area) {
 
 }  // namespace
 
+void mark_contact_line(Drop& drop) {
+  Contact* contact = drop.contact();
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
+    if (contact[i] == Contact::free) continue;
+    const Ring ring = drop.connectivity().ring(i);
+    for (int k = 0; k < ring.degree; ++k)
+      if (contact[ring.neighbour[k]] == Contact::free) contact[i] = Contact::line;
+  }
+}
+
 std::optional<ContactLineVertex> contact_line_vertex(const Drop& drop, std::uint32_t v) {
   const ConstColumns x = drop.positions();
   const Contact* contact = drop.contact();

@@ -65,6 +65,7 @@ void Drop::bind() {
   contact_normal_ = mesh_.add_property_map<VertexIndex, Vector>("v:contact_normal", Vector(0, 0, 0)).first;
   contact_ = mesh_.add_property_map<VertexIndex, Contact>("v:contact_state", Contact::free).first;
   contact_solid_ = mesh_.add_property_map<VertexIndex, std::int32_t>("v:contact_solid", -1).first;
+  seam_watch_ = mesh_.add_property_map<VertexIndex, std::uint8_t>("v:seam_watch", 0).first;
   poor_quality_ = mesh_.add_property_map<VertexIndex, std::uint8_t>("v:poor_quality", 0).first;
 }
 

@@ -159,6 +159,18 @@ Eigen::Vector3d point_of(const RemeshState& state, VertexIndex a, VertexIndex b,
   }
 }
 
+/// The faces that stay about a and b, with both at x, meet another sheet.
+bool would_meet_sheet(const RemeshState& state, VertexIndex a, VertexIndex b, const Eigen::Vector3d& x) {
+  if (!state.scratch.guard) return false;
+  auto& faces = state.scratch.new_faces;
+  faces.clear();
+  for (const auto& [v, other] : {std::pair(a, b), std::pair(b, a)})
+    for_each_kept_face(state, v, other, [&](VertexIndex p, VertexIndex q) {
+      faces.push_back({{a, p, q}, {x, state.point(p), state.point(q)}});
+    });
+  return state.would_meet_sheet({a, b}, {});
+}
+
 Refusal would_harm(const RemeshState& state, HalfedgeIndex h, Target target) {
   const auto a = state.mesh.source(h), b = state.mesh.target(h);
   const Eigen::Vector3d x = point_of(state, a, b, target);
@@ -168,7 +180,9 @@ Refusal would_harm(const RemeshState& state, HalfedgeIndex h, Target target) {
   normals.clear();
   auto refusal = would_harm_star(state, a, b, x, becomes_colliding, normals);
   if (refusal == Refusal::none) refusal = would_harm_star(state, b, a, x, becomes_colliding, normals);
-  return refusal == Refusal::none && would_fold(normals) ? Refusal::would_invert : refusal;
+  if (refusal == Refusal::none && would_fold(normals)) refusal = Refusal::would_invert;
+  if (refusal == Refusal::none && would_meet_sheet(state, a, b, x)) refusal = Refusal::near_intersection;
+  return refusal;
 }
 
 }  // namespace

@@ -64,6 +64,20 @@ bool would_fold_at(const RemeshState& state, HalfedgeIndex h, const Eigen::Vecto
   return turns_too_far((m - a).cross(o - a)) || turns_too_far((b - m).cross(o - m));
 }
 
+/// The four faces about a new vertex at m meet another sheet.
+bool would_meet_sheet(const RemeshState& state, HalfedgeIndex h, const Eigen::Vector3d& m) {
+  if (!state.scratch.guard) return false;
+  auto& faces = state.scratch.new_faces;
+  faces.clear();
+  const auto name = static_cast<std::uint32_t>(state.mesh.num_vertices());
+  for (const auto side : {h, state.mesh.opposite(h)}) {
+    const auto a = state.mesh.source(side), b = state.mesh.target(side), o = state.apex(side);
+    faces.push_back({{a, name, o}, {state.point(a), m, state.point(o)}});
+    faces.push_back({{name, b, o}, {m, state.point(b), state.point(o)}});
+  }
+  return state.would_meet_sheet({}, {state.mesh.face(h), state.mesh.face(state.mesh.opposite(h))});
+}
+
 Contact contact_of_midpoint(const RemeshState& state, HalfedgeIndex h) {
   if (state.inside_wetted_area(h)) return Contact::wetted;
   return state.is_contact_line(h) ? Contact::line : Contact::free;
@@ -94,6 +108,7 @@ Refusal try_split(RemeshState& state, HalfedgeIndex h) {
     m = curved_midpoint(state, a, b);
     if (would_fold_at(state, h, m) || would_fold_at(state, mesh.opposite(h), m)) m = middle;
     m = off_the_solid(state, a, b, m);
+    if (m != middle && would_meet_sheet(state, h, m)) m = middle;
   }
   split_at(state, h, m, contact);
   return Refusal::none;

@@ -173,7 +173,7 @@ Remesher::~Remesher() = default;
 Remesher::Remesher(Remesher&&) noexcept = default;
 Remesher& Remesher::operator=(Remesher&&) noexcept = default;
 
-RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOptions& options) {
+RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOptions& options, Ledger* before) {
   scratch.splits.clear();
   scratch.collapses.clear();
   for (const auto e : scratch.flips) scratch.in_flips[e] = 0;
@@ -181,12 +181,17 @@ RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOpt
   scratch.refused.clear();
   scratch.changed.clear();
   scratch.attributes.clear();
+  scratch.guard.reset();
   RemeshState state(drop, options, scratch);
   scan(state);
   const bool rests =
       scratch.splits.empty() && scratch.collapses.empty() && scratch.flips.empty() && !state.has_turned_faces;
   if (rests && (options.smoothing == 0 || !state.has_sharp_angle)) return state.report;
+  if (before) *before = measure_ledger(drop);
+  const Eigen::AlignedBox3d watched = SheetGuard::region_of(drop, options.band.edge_max);
+  if (!watched.isEmpty()) scratch.guard.emplace(drop, watched, options.band.edge_max);
   run_passes(state);
+  scratch.guard.reset();
   mark_poor_quality(state);
   if (state.report.changed()) {
     drop.topology_changed();
@@ -195,8 +200,8 @@ RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOpt
   return state.report;
 }
 
-RemeshReport Remesher::remesh(Drop& drop, const RemeshOptions& options) {
-  return remesh_with(*scratch_, drop, options);
+RemeshReport Remesher::remesh(Drop& drop, const RemeshOptions& options, Ledger* before) {
+  return remesh_with(*scratch_, drop, options, before);
 }
 
 RemeshReport remesh(Drop& drop, const RemeshOptions& options) {

@@ -117,6 +117,9 @@ void RemeshState::queue_ring(VertexIndex v) {
 void RemeshState::update(VertexIndex v) {
   connectivity.update_vertex(mesh, v);
   scratch.changed.push_back(v);
+  if (!scratch.guard || mesh.is_removed(v)) return;
+  const Ring r = ring(v);
+  for (int k = 0; k < r.degree; ++k) scratch.guard->add(r.corner[k] / 3);
 }
 
 void RemeshState::update_contact(VertexIndex v) {

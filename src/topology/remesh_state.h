@@ -3,10 +3,12 @@
 
 #include "attribute_maps.h"
 #include "meniscus/topology/remesh.h"
+#include "sheet_guard.h"
 
 #include <Eigen/Geometry>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 /// What the edge operations share. Each operation lies in a file of its own, with its predicates.
@@ -50,6 +52,8 @@ struct Remesher::Scratch {
   std::vector<HalfedgeIndex> cycle;
   AttributeMaps attributes;
   std::vector<ForbiddenBall> forbidden;
+  std::optional<SheetGuard> guard;  ///< where sheets are close together
+  std::vector<SheetGuard::NewFace> new_faces;
   int max_valence = 8;  ///< of a vertex that two others became
 };
 
@@ -104,6 +108,12 @@ struct RemeshState {
   /// 0 smooth, 1 on a sharp edge, 2 a corner.
   int feature_rank(VertexIndex v) const;
 
+  /// The faces in scratch.new_faces, in place of those that hold one of `replaced` or are `removed`, would meet
+  /// another sheet of the surface. False where there is no guard.
+  bool would_meet_sheet(const std::vector<std::uint32_t>& replaced, const std::vector<std::uint32_t>& removed) const {
+    return scratch.guard && scratch.guard->would_meet(scratch.new_faces, replaced, removed);
+  }
+
   /// Queues an edge for whatever its length or weight asks.
   void queue(EdgeIndex e);
   void queue_flip(EdgeIndex e);
@@ -151,7 +161,8 @@ bool is_collapse_ok(const RemeshState& state, HalfedgeIndex h);
 void smooth_tangentially(RemeshState& state, double factor);
 
 /// Remesher::remesh with the given working arrays, keeping out of scratch.forbidden.
-RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOptions& options);
+RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOptions& options,
+                         Ledger* before = nullptr);
 /// Rounds of split, collapse and flip over the queues that scan filled.
 void run_passes(RemeshState& state);
 

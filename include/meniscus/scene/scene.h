@@ -68,7 +68,7 @@ struct DropSpec {
 
 /// What may change a drop's connectivity.
 struct Topology {
-  bool merge = true;        ///< drops that touch become one (has no effect yet)
+  bool merge = true;        ///< drops that touch become one
   bool self_merge = false;  ///< a drop that touches itself fuses there (not available yet)
   bool split = true;        ///< necks pinch off
 };

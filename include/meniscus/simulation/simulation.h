@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meniscus/scene/scene.h"
+#include "meniscus/simulation/merge_touching.h"
 #include "meniscus/simulation/step.h"
 
 #include <vector>
@@ -22,7 +23,8 @@ std::vector<Drop> make_drops(const Scene& scene, const std::vector<Solid>& solid
 StepOptions make_step_options(const Scene& scene);
 
 /// Drops and solids that go through time together. Drops are stepped in parallel (TBB); the result
-/// does not depend on the number of threads.
+/// does not depend on the number of threads. Drops that meet merge; those too fast for the step to see
+/// them meet take it in substeps together.
 class Simulation {
  public:
   /// Builds everything that the scene describes.
@@ -44,9 +46,15 @@ class Simulation {
   void set_clock(double (*clock)()) { options_.clock = clock; }
 
  private:
+  void step_all(StepReport& report);
+  std::vector<Drop> step_cluster(std::vector<Drop> drops, int substeps, StepReport& report);
+  void merge(std::vector<Drop>& drops, BroadPhase& broad_phase, StepReport& report);
+
   std::vector<Solid> solids_;
   std::vector<Drop> drops_;
   StepOptions options_;
+  Remeshers remeshers_;
+  BroadPhase paths_, places_;  ///< of swept boxes before a step and of boxes after it
   double time_step_ = 0, time_ = 0;
   std::size_t num_steps_ = 0;
   int next_id_ = 0;

@@ -20,9 +20,10 @@ enum class Stage {
   contact_angle,
   volume_correction,
   remesh,
-  split
+  split,
+  merge
 };
-inline constexpr std::size_t num_stages = 8;
+inline constexpr std::size_t num_stages = 9;
 const char* stage_name(Stage stage);  ///< "external_forces", ...
 
 /// Everything a step needs to know, the same for every drop.
@@ -35,6 +36,8 @@ struct StepOptions {
   EdgeBand band;
   bool remesh = true;
   bool split = true;
+  bool merge = true;      ///< drops that meet become one; read by Simulation, not by step_drop
+  bool keep_air = false, self_merge = false;  ///< see MergeOptions
   SolverOptions solver;
   /// Seconds on some clock, for StepReport::stage_seconds; the library itself never reads one.
   double (*clock)() = nullptr;
@@ -48,12 +51,21 @@ struct StepReport {
   std::size_t cuts = 0;                            ///< necks cut
   std::size_t deleted = 0;                         ///< pieces too small to go on as drops
   std::size_t limited_volume = 0;                  ///< volume corrections cut to their limit
+  std::size_t merges = 0;                          ///< pairs of drops that became one
+  std::size_t folds = 0;                           ///< drops that fused with themselves
+  std::size_t refused = 0;                         ///< pairs that met and could not be united in this step
+  std::size_t retries = 0;                         ///< ladder steps that a union took in vain
+  double overlap = 0;                              ///< cm^3 that merging drops both claimed, lost and repaired
+  double air = 0;                                  ///< cm^3 of shut-in air that was filled
   int substeps = 0;                                ///< most of any drop
   int solver_iterations = 0;                       ///< most of any drop
   double worst_volume_error = 0;                   ///< largest |V - V_target| / V_target before topology changed
 
   StepReport& operator+=(const StepReport& other);
 };
+
+/// How remeshing runs in a step.
+RemeshOptions remesh_options(const StepOptions& step);
 
 /// One step of one drop, from time - dt to time (s): the paper's Figure 1 from external forces to
 /// mesh split. The drop is replaced by its pieces: usually one, more if it pinched off, none if it

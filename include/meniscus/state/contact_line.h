@@ -7,6 +7,10 @@
 
 namespace meniscus {
 
+/// Tells the contact line from the inside of the wetted area: a colliding vertex with a free neighbour
+/// becomes Contact::line, the others stay what they are.
+void mark_contact_line(Drop& drop);
+
 /// The neighbourhood of a vertex of the contact line (Figure 3 of the paper).
 struct ContactLineVertex {
   Eigen::Vector3d outward;  ///< unit, in the solid's tangent plane, from the wetted area to the dry

@@ -72,6 +72,10 @@ class Drop {
   const std::int32_t* contact_solid() const { return num_rows() == 0 ? nullptr : &contact_solid_[VertexIndex(0)]; }
   /// 1 at vertices whose faces are still bad after remeshing: damping smooths their velocity more.
   std::uint8_t* poor_quality() { return num_rows() == 0 ? nullptr : &poor_quality_[VertexIndex(0)]; }
+  /// Steps for which the surface near this vertex is watched for folds: merging sets it at a seam, where two
+  /// sheets move towards each other; see mend_folds.
+  std::uint8_t* seam_watch() { return num_rows() == 0 ? nullptr : &seam_watch_[VertexIndex(0)]; }
+  const std::uint8_t* seam_watch() const { return num_rows() == 0 ? nullptr : &seam_watch_[VertexIndex(0)]; }
 
   Connectivity& connectivity() { return connectivity_; }
   const Connectivity& connectivity() const { return connectivity_; }
@@ -107,7 +111,7 @@ class Drop {
   Mesh::Property_map<VertexIndex, Vector> velocity_, displacement_, contact_normal_;
   Mesh::Property_map<VertexIndex, Contact> contact_;
   Mesh::Property_map<VertexIndex, std::int32_t> contact_solid_;
-  Mesh::Property_map<VertexIndex, std::uint8_t> poor_quality_;
+  Mesh::Property_map<VertexIndex, std::uint8_t> poor_quality_, seam_watch_;
   Connectivity connectivity_;
   Workspace workspace_;
   double target_volume_ = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meniscus/state/drop.h"
+#include "meniscus/state/ledger.h"
 #include "meniscus/state/parameters.h"
 
 #include <cstddef>
@@ -81,9 +82,10 @@ class Remesher {
   Remesher(Remesher&&) noexcept;
   Remesher& operator=(Remesher&&) noexcept;
 
-  /// Precondition: options pass check_options. Throws GeometryError if edges are so long for the
-  /// band that more than max_faces faces would be made (a sign of a diverged simulation).
-  RemeshReport remesh(Drop& drop, const RemeshOptions& options);
+  /// Precondition: options pass check_options. If the report says changed(), `before` (if any) has the
+  /// drop's ledger from before the first change, for restore_ledger. Throws GeometryError if edges are so
+  /// long for the band that more than max_faces faces would be made (a sign of a diverged simulation).
+  RemeshReport remesh(Drop& drop, const RemeshOptions& options, Ledger* before = nullptr);
 
   struct Scratch;
 

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/topology/merge.h"
+
+#include "attribute_maps.h"
+#include "meniscus/state/contact_line.h"
+#include "meniscus/state/ledger.h"
+#include "meniscus/topology/self_union.h"
+#include "meniscus/topology/split.h"
+#include "sheet_guard.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// A plane that both drops wet.
+struct SharedPlane {
+  Vector3d normal;
+  double offset;  ///< normal . x, cm
+};
+
+/// The plane of all colliding vertices, if both drops have some and they lie on one plane.
+std::optional<SharedPlane> shared_plane(const Drop& a, const Drop& b) {
+  constexpr double same_direction = 1e-9, same_offset = 1e-7;  // in lengths of the cube root of the volume
+  std::optional<SharedPlane> plane;
+  for (const Drop* drop : {&a, &b}) {
+    bool touches = false;
+    for (std::uint32_t i = 0; i < drop->num_rows(); ++i) {
+      if (drop->connectivity().degree(i) == 0 || !is_colliding(drop->contact()[i])) continue;
+      touches = true;
+      const Vector3d n = drop->contact_normals().col(i), x = drop->positions().col(i);
+      if (!plane) plane = SharedPlane{n, n.dot(x)};
+      if ((n - plane->normal).norm() > same_direction ||
+          std::abs(plane->normal.dot(x) - plane->offset) > same_offset * std::cbrt(drop->target_volume()))
+        return std::nullopt;
+    }
+    if (!touches) return std::nullopt;
+  }
+  return plane;
+}
+
+/// A drop's points turned so that the plane is z = 0, with those on it exactly there: faces that both
+/// drops have on the plane are then coplanar not just up to rounding.
+Eigen::Matrix3Xd flattened(const Drop& drop, const SharedPlane& plane, const Matrix3d& turn) {
+  Eigen::Matrix3Xd x = turn * drop.positions();
+  x.row(2).array() -= plane.offset;
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+    if (drop.connectivity().degree(i) > 0 && is_colliding(drop.contact()[i])) x(2, i) = 0;
+  return x;
+}
+
+/// Row 2 is the normal; the identity if that is z.
+Matrix3d turn_to_plane(const Vector3d& normal) {
+  if (normal == Vector3d::UnitZ()) return Matrix3d::Identity();
+  Matrix3d turn;
+  turn.row(0) = normal.unitOrthogonal();
+  turn.row(2) = normal;
+  turn.row(1) = turn.row(2).cross(turn.row(0));
+  return turn;
+}
+
+/// The union, with the points of kept rows to the bit as they were.
+BooleanResult unite(const Drop& a, const Drop& b, const MergeOptions& options) {
+  BooleanOptions boolean_options;
+  boolean_options.inputs_are_sound = true;
+  boolean_options.keep_cavities = options.keep_air;
+  const std::optional<SharedPlane> plane = shared_plane(a, b);
+  if (!plane) return boolean(view_of(a), view_of(b), BooleanOperation::unite, boolean_options);
+  const Matrix3d turn = turn_to_plane(plane->normal);
+  const Eigen::Matrix3Xd xa = flattened(a, *plane, turn), xb = flattened(b, *plane, turn);
+  BooleanResult result = boolean({{xa.data(), xa.cols()}, a.connectivity().triangles()},
+                                 {{xb.data(), xb.cols()}, b.connectivity().triangles()}, BooleanOperation::unite,
+                                 boolean_options);
+  const auto set = [&](std::size_t row, const Vector3d& x) { result.points[row] = {x[0], x[1], x[2]}; };
+  std::size_t row = 0;
+  for (const std::uint32_t v : result.kept_a) set(row++, a.positions().col(v));
+  for (const std::uint32_t v : result.kept_b) set(row++, b.positions().col(v));
+  for (; row < result.points.size(); ++row) {
+    const auto& p = result.points[row];
+    set(row, turn.transpose() * Vector3d(p[0], p[1], p[2] + plane->offset));
+  }
+  return result;
+}
+
+Mesh mesh_of(const BooleanResult& result) {
+  Mesh mesh;
+  const auto n = static_cast<Mesh::size_type>(result.points.size());
+  const auto f = static_cast<Mesh::size_type>(result.triangles.size());
+  mesh.reserve(n, 3 * f / 2, f);
+  for (const auto& p : result.points) mesh.add_vertex(Point(p[0], p[1], p[2]));
+  for (const auto& [i, j, k] : result.triangles) mesh.add_face(VertexIndex(i), VertexIndex(j), VertexIndex(k));
+  return mesh;
+}
+
+AttributeSource source_of(const SurfacePoint& point) {
+  const auto& [i, j, k] = point.corners;
+  return {{VertexIndex(i), VertexIndex(j), VertexIndex(k)}, point.weights};
+}
+
+/// Gives the united mesh the vertex maps of both: seam vertices the mean of what each drop has there.
+void carry_attributes(const Drop& a, const Drop& b, const BooleanResult& result, Mesh& mesh) {
+  std::vector<AttributeSource> from_a, from_b;
+  for (const std::uint32_t v : result.kept_a) from_a.push_back(same_as(VertexIndex(v)));
+  for (const std::uint32_t v : result.kept_b) from_b.push_back(same_as(VertexIndex(v)));
+  for (const SeamVertex& seam : result.seam) from_b.push_back(source_of(seam.on_b));
+  gather_attributes(a.mesh(), mesh, from_a, 0);
+  gather_attributes(b.mesh(), mesh, from_b, from_a.size());
+  from_a.clear();
+  for (const SeamVertex& seam : result.seam) from_a.push_back(source_of(seam.on_a));
+  blend_attributes(a.mesh(), mesh, from_a, result.first_seam_row());
+}
+
+/// A point of a face that lies on a solid is on it.
+bool is_on_solid(const Drop& drop, const SurfacePoint& point) {
+  for (int k = 0; k < 3; ++k)
+    if (point.weights[k] != 0 && !is_colliding(drop.contact()[point.corners[k]])) return false;
+  return true;
+}
+
+/// The contact state of seam vertices, from the faces that they lie on; then the line anew, since what was
+/// line may now lie inside the common wetted area.
+void find_contact_on_seam(const Drop& a, const Drop& b, const BooleanResult& result, Drop& united) {
+  const auto first = static_cast<std::uint32_t>(result.first_seam_row());
+  for (std::uint32_t k = 0; k < result.seam.size(); ++k) {
+    const std::uint32_t row = first + k;
+    united.contact()[row] = Contact::free;
+    united.contact_solid()[row] = -1;
+    const SeamVertex& seam = result.seam[k];
+    for (const auto& [drop, point] : {std::pair(&a, &seam.on_a), std::pair(&b, &seam.on_b)}) {
+      if (!is_on_solid(*drop, *point)) continue;
+      const auto nearest = std::max_element(point->weights.begin(), point->weights.end()) - point->weights.begin();
+      const std::uint32_t v = point->corners[nearest];
+      united.contact()[row] = Contact::wetted;
+      united.contact_solid()[row] = drop->contact_solid()[v];
+      united.contact_normals().col(row) = drop->contact_normals().col(v);
+    }
+  }
+  for (std::uint32_t i = 0; i < first; ++i)
+    if (is_colliding(united.contact()[i])) united.contact()[i] = Contact::wetted;
+  mark_contact_line(united);
+}
+
+/// The seam is a crease; remeshing keeps to it where it is sharper than this (radians), so that the sheets
+/// beside it, which are close to each other, do not pass through each other.
+constexpr double crease_angle = 0.7;
+
+/// Calls for which the surface near a seam is watched for folds.
+constexpr std::uint8_t watched_calls = 30;
+
+/// The drop that a Boolean result describes, its seam remeshed, with the given ledger and target volume.
+std::vector<Drop> rebuild(const Drop& a, const Drop& b, const BooleanResult& result, const Ledger& ledger,
+                          double target_volume, const MergeOptions& options, Remesher& remesher,
+                          MergeReport& report) {
+  Mesh mesh = mesh_of(result);
+  carry_attributes(a, b, result, mesh);
+  Drop united(std::move(mesh));
+  united.set_id(a.id());
+  united.set_target_volume(target_volume);
+  find_contact_on_seam(a, b, result, united);
+  std::fill(united.seam_watch() + result.first_seam_row(), united.seam_watch() + united.num_rows(), watched_calls);
+
+  RemeshOptions seam_options = options.remesh;
+  if (!seam_options.feature_angle) seam_options.feature_angle = crease_angle;
+  const RemeshReport remeshed = remesher.remesh(united, seam_options);
+  std::vector<Drop> pieces;
+  if (remeshed.cuts > 0) {
+    SplitReport split;
+    pieces = split_components(std::move(united), split);
+    report.cuts += remeshed.cuts;
+    report.deleted += split.deleted + split.deleted_empty;
+  } else {
+    pieces.push_back(std::move(united));
+  }
+  restore_ledger(pieces, ledger);
+  return pieces;
+}
+
+Eigen::AlignedBox3d bounding_box_of(const Drop& drop) {
+  Eigen::AlignedBox3d box;
+  for (const auto v : drop.mesh().vertices()) box.extend(to_eigen(drop.mesh().point(v)));
+  return box;
+}
+
+/// Counts the watch of every vertex down.
+void count_down(Drop& drop) {
+  std::uint8_t* watch = drop.seam_watch();
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+    if (watch[i] > 0) --watch[i];
+}
+
+}  // namespace
+
+MergeReport& MergeReport::operator+=(const MergeReport& other) {
+  merges += other.merges;
+  folds += other.folds;
+  refused += other.refused;
+  retries += other.retries;
+  cuts += other.cuts;
+  deleted += other.deleted;
+  overlap += other.overlap;
+  air += other.air;
+  return *this;
+}
+
+std::optional<std::vector<Drop>> merge_drops(const Drop& a, const Drop& b, const MergeOptions& options,
+                                             Remesher& remesher, MergeReport& report) {
+  const BooleanResult result = unite(a, b, options);
+  report.retries += static_cast<std::size_t>(result.retries);
+  if (result.outcome == BooleanOutcome::disjoint) return std::nullopt;
+  if (!result.ok()) {
+    ++report.refused;
+    return std::nullopt;
+  }
+  Ledger ledger = measure_ledger(a);
+  ledger += measure_ledger(b);
+  ++report.merges;
+  report.overlap += ledger.volume - result.volume;
+  return rebuild(a, b, result, ledger, a.target_volume() + b.target_volume(), options, remesher, report);
+}
+
+std::optional<std::vector<Drop>> mend_folds(Drop& drop, const MergeOptions& options, Remesher& remesher,
+                                            MergeReport& report) {
+  Eigen::AlignedBox3d region = SheetGuard::region_of(drop, options.remesh.band.edge_max);
+  if (options.self_merge) region = bounding_box_of(drop);
+  if (region.isEmpty()) return std::nullopt;
+  count_down(drop);
+  const BooleanResult result = unite_with_itself(view_of(std::as_const(drop)), region, options.keep_air);
+  if (result.outcome == BooleanOutcome::disjoint) return std::nullopt;
+  if (!result.ok()) {
+    ++report.refused;
+    return std::nullopt;
+  }
+  ++report.folds;
+  const Ledger ledger = measure_ledger(drop);
+  report.overlap += ledger.volume - result.volume;
+  return rebuild(drop, drop, result, ledger, drop.target_volume(), options, remesher, report);
+}
+
+}  // namespace meniscus

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/simulation/merge_touching.h"
 
+#include "meniscus/state/ledger.h"
+
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -28,12 +30,19 @@ Pairs meeting_pairs(const std::vector<Drop>& drops, const std::vector<Eigen::Ali
 
 bool boxes_meet(const Drop& a, const Drop& b) { return bounding_box(a).intersects(bounding_box(b)); }
 
+/// The drops' centres of mass move apart, as those of pieces that have just pinched off.
+bool are_parting(const Drop& a, const Drop& b) {
+  const Ledger p = measure_ledger(a), q = measure_ledger(b);
+  if (!(p.volume > 0) || !(q.volume > 0)) return false;
+  return (p.center() - q.center()).dot(p.momentum / p.volume - q.momentum / q.volume) > 0;
+}
+
 /// Unites what can be united among the drops of a group, the first pair first.
 void merge_group(std::vector<Drop>& group, const MergeOptions& options, Remesher& remesher, MergeReport& report) {
   std::vector<Drop> cut_off;  // not tried again in this step: it was part of the drop just now
   for (std::size_t i = 0; i < group.size(); ++i)
     for (std::size_t j = i + 1; j < group.size();) {
-      if (!boxes_meet(group[i], group[j])) {
+      if (!boxes_meet(group[i], group[j]) || are_parting(group[i], group[j])) {
         ++j;
         continue;
       }

@@ -8,7 +8,6 @@
 #include "meniscus/operators/mean_curvature_flow.h"
 #include "meniscus/operators/tangential_damping.h"
 #include "meniscus/operators/volume_correction.h"
-#include "meniscus/state/ledger.h"
 #include "meniscus/topology/split.h"
 
 #include <fmt/format.h>
@@ -217,8 +216,7 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
 
   std::vector<Drop> pieces;
   RemeshReport remeshed;
-  Ledger ledger;
-  if (options.remesh) remeshed = remesher.remesh(drop, remesh_options(options), &ledger);
+  if (options.remesh) remeshed = remesher.remesh(drop, remesh_options(options));
   report.edge_operations += remeshed.splits + remeshed.collapses + remeshed.flips + remeshed.lifts;
   report.cuts += remeshed.cuts;
   clock.done(Stage::remesh);
@@ -227,9 +225,7 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
     SplitReport split;
     pieces = split_components(std::move(drop), split);
     report.deleted += split.deleted + split.deleted_empty;
-    restore_ledger(pieces, ledger);
   } else {
-    if (remeshed.changed()) restore_ledger(drop, ledger);
     pieces.push_back(std::move(drop));
   }
   clock.done(Stage::split);

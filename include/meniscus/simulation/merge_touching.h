@@ -21,7 +21,7 @@ using Remeshers = tbb::enumerable_thread_specific<Remesher>;
 /// the order of the drops, until none is left to unite: ten drops on one become one.
 ///
 /// A united drop takes the first one's place and id; what was cut off while its seam was remeshed comes
-/// behind its group, with no_id. Groups stay in the order of their first drops. Drops whose union was
+/// behind its group, with no_id. Drops whose centres of mass move apart are left alone: pieces that have just pinched off. Groups stay in the order of their first drops. Drops whose union was
 /// refused stay as they are. Groups are united in parallel, with the same result for any number of threads.
 MergeReport merge_touching_drops(std::vector<Drop>& drops, BroadPhase& broad_phase, const MergeOptions& options,
                                  Remeshers& remeshers);

@@ -192,8 +192,9 @@ TEST(SceneErrors, ValuesOutOfRange) {
 }
 
 TEST(SceneErrors, WordsThatAreNoChoice) {
-  expect_messages(with_drop(R"("model": "calibratd")"),
-                  {"s.json:1:11 /model: \"calibratd\" is not one of paper, calibrated; did you mean \"calibrated\"?"});
+  expect_messages(
+      with_drop(R"("model": "calibratd")"),
+      {"s.json:1:11 /model: \"calibratd\" is not one of paper, calibrated, pressure; did you mean \"calibrated\"?"});
   expect_messages(
       R"({"drops": [{"shape": "mesh", "file": "a.off"}]})",
       {"s.json:1:22 /drops/0/shape: \"mesh\" is not one of sphere, ellipsoid, box, cap; a mesh file has \"mesh\": "

@@ -116,7 +116,8 @@ class Evolution {
       return writer;
     }
     remove_checkpoints(plan_.output);
-    std::filesystem::remove(plan_.output / "run.json");  // an older run's
+    std::error_code ignored;
+    std::filesystem::remove(plan_.output / "run.json", ignored);  // an older run's
     FrameWriter writer(plan_.output, plan_.frame_options);
     writer.write(0, simulation_.time(), simulation_.drops());
     if (plan_.checkpoint_every > 0 && plan_.steps > 0) save(writer);

@@ -75,7 +75,7 @@ std::optional<std::int64_t> step_of(const fs::path& file) {
   return step && *step >= 0 && checkpoint_name(*step) == name ? step : std::nullopt;
 }
 
-void remove(const fs::path& file) {
+void remove_file(const fs::path& file) {
   std::error_code error;
   fs::remove(file, error);
   if (error) throw FileError(fmt::format("{}: cannot be removed ({})", file.string(), error.message()));
@@ -124,11 +124,11 @@ State decode_checkpoint(std::string_view bytes, const std::string& name) {
 void write_checkpoint(const fs::path& directory, std::int64_t step, const State& state) {
   write_file_atomically(directory / checkpoint_name(step), encode_checkpoint(state));
   const std::vector<fs::path> files = find_checkpoints(directory);
-  for (std::size_t k = num_kept; k < files.size(); ++k) remove(files[k]);
+  for (std::size_t k = num_kept; k < files.size(); ++k) remove_file(files[k]);
 }
 
 void remove_checkpoints(const fs::path& directory) {
-  for (const fs::path& file : find_checkpoints(directory)) remove(file);
+  for (const fs::path& file : find_checkpoints(directory)) remove_file(file);
 }
 
 }  // namespace meniscus

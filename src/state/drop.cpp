@@ -62,6 +62,7 @@ Drop::Drop(const Drop& other)
       connectivity_(other.connectivity_),
       target_volume_(other.target_volume_),
       topology_version_(other.topology_version_),
+      flow_version_(other.flow_version_),
       id_(other.id_) {
   bind();
 }

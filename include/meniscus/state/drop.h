@@ -52,8 +52,8 @@ class Drop {
   static Drop restored(Mesh mesh, const std::vector<std::uint32_t>& ring_starts);
   Drop(const Drop& other);
   Drop& operator=(const Drop& other);
-  Drop(Drop&&) = default;
-  Drop& operator=(Drop&&) = default;
+  Drop(Drop&&) noexcept = default;  // so that a growing std::vector moves drops, workspaces and all
+  Drop& operator=(Drop&&) noexcept = default;
 
   Mesh& mesh() { return mesh_; }
   const Mesh& mesh() const { return mesh_; }

@@ -2,6 +2,7 @@
 #include "meniscus/simulation/step.h"
 
 #include "meniscus/core/error.h"
+#include "meniscus/geometry/rigid_motion.h"
 #include "meniscus/operators/contact_angle.h"
 #include "meniscus/operators/damping.h"
 #include "meniscus/operators/external_forces.h"
@@ -206,6 +207,16 @@ int num_substeps(Drop& drop, const std::vector<Solid>& solids, double time, doub
   return static_cast<int>(std::ceil(std::min(substeps, static_cast<double>(most_substeps))));
 }
 
+/// A piece smaller than edges are long has no shape to change: of the violent motion of the neck that it was torn
+/// from it keeps the translation. Its few vertices would turn it over otherwise.
+void stiffen_speck(Drop& piece, const EdgeBand& band) {
+  if (ball_radius(piece) > band.edge_max) return;
+  SurfaceGeometry& geometry = piece.workspace().geometry;
+  geometry.compute(std::as_const(piece).positions(), piece.connectivity());
+  const Vector3d mean = fit_rigid_motion(piece.positions(), piece.velocities(), geometry).translation;
+  piece.velocities().colwise() = mean;
+}
+
 /// One substep: the paper's Figure 1.
 std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                           const StepOptions& options, Remesher& remesher, StepReport& report) {
@@ -264,6 +275,7 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
     SplitReport split;
     pieces = split_components(std::move(drop), split);
     report.deleted += split.deleted + split.deleted_empty;
+    for (Drop& piece : pieces) stiffen_speck(piece, options.band);
   } else {
     pieces.push_back(std::move(drop));
     report.skip(Stage::split);

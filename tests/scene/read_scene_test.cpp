@@ -120,7 +120,7 @@ TEST(ReadScene, AFilesNameIsInItsMessages) {
     read_scene(path);
     ADD_FAILURE();
   } catch (const SceneError& error) {
-    EXPECT_EQ(std::string(error.what()), path.string() + ":1:1: missing \"drops\" (a list of objects)");
+    EXPECT_EQ(std::string(error.what()), path.string() + ":1:1: missing \"drops\" (a list of objects), and there are no \"sources\"");
   }
   std::filesystem::remove(path);
 }
@@ -269,7 +269,7 @@ TEST(SceneErrors, ColumnsCountCharactersAndLinesMayEndInAnyWay) {
   expect_messages("{\"$schema\": \"\u00e9\u4e2d\U0001F4A7\", \"x\\\"y\\\\\": 1,\r\n\t\"drops\": 1}",
                   {"s.json:1:20 /x\"y\\: unknown key; the keys here are time_step, frames, steps_per_frame, gravity, "
                    "liquid, model, "
-                   "paper, volume_correction, mesh, topology, solver, solids, drops",
+                   "paper, volume_correction, mesh, topology, solver, solids, drops, sources",
                    "s.json:2:11 /drops: expected a list of objects, found a number"});
 }
 
@@ -338,7 +338,7 @@ TEST(SceneErrors, Scatter) {
   expect_messages(with_scatter(""), {});
   expect_messages(with_scatter(R"(, "radius_min": 0.3, "radius_max": 0.2)"),
                   {"s.json:1:95 /drops/0/radius_max: radius_max 0.2 is less than radius_min 0.3"});
-  expect_messages(with_scatter(R"(, "on": "pane")"), {"s.json:1:67 /drops/0/on: no solid has the name \"pane\""});
+  expect_messages(with_scatter(R"(, "on": "pane")"), {"s.json:1:68 /drops/0/on: no solid has the name \"pane\""});
   expect_messages(R"({"drops": [{"shape": "scatter"}]})",
                   {"s.json:1:12 /drops/0: missing \"size\" (three numbers, cm, > 0)",
                    "s.json:1:12 /drops/0: missing \"count\" (a whole number, >= 1, <= 1000000)"});
@@ -351,7 +351,7 @@ TEST(SceneErrors, Sources) {
   expect_messages(with_source(R"(, "start": 2, "stop": 1)"),
                   {"s.json:1:52 /sources/0/stop: a source that starts at 2 s must stop later than that"});
   expect_messages(with_source(R"(, "radius": 0.01)"),
-                  {"s.json:1:41 /sources/0/radius: a source of radius 0.01 cm is too small for edges of edge_min 0.04 "
+                  {"s.json:1:42 /sources/0/radius: a source of radius 0.01 cm is too small for edges of edge_min 0.04 "
                    "cm; lower mesh.edge_min and mesh.edge_max, or make it larger"});
   expect_messages(R"({"sources": [{}]})", {"s.json:1:14 /sources/0: missing \"shape\" (one of disc)"});
 }
@@ -491,7 +491,7 @@ TEST(SceneSettings, Errors) {
 
 TEST(SceneSettings, ComeAfterTheFileInMessages) {
   expect_messages("{\"frames\": -1}",
-                  {"s.json:1:1: missing \"drops\" (a list of objects)",
+                  {"s.json:1:1: missing \"drops\" (a list of objects), and there are no \"sources\"",
                    "s.json:1:12 /frames: -1 is out of range; it must be >= 0, <= 10000000",
                    "--set time_step=0: 0 is out of range; it must be > 0, <= 1 s"},
                   {"time_step=0"});

@@ -55,7 +55,7 @@ TEST(ResolvedScene, SourcesScatterAndEdgesReadBackTheSame) {
   const Scene scene = parse(R"({"sleep": true, "solids": [
       {"name": "b", "shape": "box", "size": [1,1,1], "edge_radius": 0.05},
       {"shape": "cylinder", "from": [0,0,0], "to": [0,0,1], "radius": 1}],
-    "drops": [{"shape": "scatter", "on": "b", "count": 3, "size": [1,1,0], "sizes": "uniform", "seed": 7}],
+    "drops": [{"shape": "scatter", "on": "b", "count": 3, "size": [1,1,0.1], "sizes": "uniform", "seed": 7}],
     "sources": [{"shape": "disc", "speed": 5}, {"shape": "disc", "start": 1, "stop": 2.5}]})");
   const std::string text = resolved_scene(scene);
   const Scene again = parse(text);

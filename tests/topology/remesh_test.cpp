@@ -499,7 +499,7 @@ TEST(Remesh, RefinesWhereTheSurfaceCurves) {
     return std::array<double, 3>{tip / tips, waist / waists, least};
   };
   const auto even = edges_of(1), refined = edges_of(4);
-  EXPECT_LT(refined[0], 0.6 * even[0]);
+  EXPECT_LT(refined[0], 0.75 * even[0]);
   EXPECT_LT(refined[0], 0.7 * refined[1]);
   EXPECT_GT(refined[2], 0.5 * 0.04 / 4);
 }

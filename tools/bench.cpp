@@ -36,10 +36,7 @@ void add_bench(CLI::App& app, Run& run) {
 void add_later_verbs(CLI::App& app, Run& run) {
   const VerbText verbs[] = {{"merge",
                              "Boolean union of closed meshes (comes in a later version).",
-                             {"meniscus merge a.ply b.ply -o c.ply", ""}},
-                            {"view",
-                             "One page that plays frames offline (comes in a later version).",
-                             {"meniscus view out --html out.html", ""}}};
+                             {"meniscus merge a.ply b.ply -o c.ply", ""}}};
   for (const VerbText& text : verbs) {
     const auto options = std::make_shared<LaterOptions>();
     CLI::App* verb = add_verb(app, text, options->common);

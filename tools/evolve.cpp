@@ -138,7 +138,8 @@ void add_options(CLI::App& verb, EvolveOptions& options) {
   verb.add_option("--gravity", options.gravity, "cm/s^2 (default: the scene's, 0,0,-981)")->type_name("x,y,z");
   verb.add_flag("--dry-run", options.dry_run, "Read and build everything, say what would run, write nothing");
   verb.add_flag("--no-frames", options.no_frames, "Write measures.csv and run.json only");
-  verb.add_option("--frames-as", options.frames_as, "Formats of frames, joined by commas: ply, off, obj; PLY always is")
+  verb.add_option("--frames-as", options.frames_as,
+                  "Formats of frames, joined by commas: ply, off, obj, vtp, glb, usda; PLY always is")
       ->capture_default_str()
       ->type_name("FORMATS");
   verb.add_flag("--resume", options.resume, "Comes in a later version");

@@ -63,6 +63,7 @@ class Evolution {
       throw;
     }
     progress_.clear();
+    writer.finish();
     const bool whole = caught_signal == 0;
     finish(whole ? "ok" : "interrupted", "");
     console_.say(summary(whole));

@@ -76,7 +76,7 @@ void parse(CLI::App& app, int argc, char** argv) {
     throw UsageError(extras.empty() ? fmt::format("{}: {}; see meniscus {} --help", first, error.what(), first)
                                     : extras);
   }
-  if (first != "merge" && first != "view")
+  if (first != "merge")
     if (const std::string extras = describe_extras(app); !extras.empty()) throw UsageError(extras);
 }
 
@@ -100,6 +100,7 @@ int run_command(int argc, char** argv) {
   add_split(app, run);
   add_flow(app, run);
   add_evolve(app, run);
+  add_view(app, run);
   add_schema(app, run);
   add_bench(app, run);
   add_later_verbs(app, run);

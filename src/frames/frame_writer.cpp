@@ -2,9 +2,11 @@
 #include "meniscus/frames/frame_writer.h"
 
 #include "meniscus/core/error.h"
+#include "meniscus/frames/frame_time.h"
 #include "meniscus/frames/measures.h"
+#include "meniscus/frames/write_sequence.h"
 #include "meniscus/io/write_file_atomically.h"
-#include "meniscus/io/write_mesh.h"
+#include "vtp.h"
 
 #include <fmt/format.h>
 
@@ -19,26 +21,22 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* measures_name = "measures.csv";
-constexpr MeshFormat frame_formats[] = {MeshFormat::ply, MeshFormat::off, MeshFormat::obj};
-constexpr const char* later_formats[] = {"vtp", "glb", "usda"};
+constexpr const char* collection_name = "frames.pvd";
+constexpr const char* sequence_name = "frames.usda";
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what, const std::error_code& error) {
   throw FileError(fmt::format("{}: {} ({}); check the directory, its permissions and the space left", path.string(),
                               what, error.message()));
 }
 
-MeshFormat parse_frame_format(std::string_view name) {
-  for (const MeshFormat format : frame_formats)
-    if (name == format_name(format)) return format;
-  if (std::find(std::begin(later_formats), std::end(later_formats), name) != std::end(later_formats))
-    throw UsageError(fmt::format("frames as {}: not available in this version; use ply, off or obj", name));
-  throw UsageError(fmt::format("\"{}\" is no format of frames; use ply, off or obj, joined by commas", name));
+bool is_written(const std::string& name) {
+  return is_frame_name(name) || name == collection_name || name == sequence_name;
 }
 
 void remove_old_frames(const fs::path& directory) {
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(directory))
-    if (is_frame_name(entry.path().filename().string()) && entry.symlink_status().type() == fs::file_type::regular)
+    if (is_written(entry.path().filename().string()) && entry.symlink_status().type() == fs::file_type::regular)
       old.push_back(entry.path());
   for (const fs::path& path : old) fs::remove(path);
 }
@@ -59,31 +57,6 @@ void prepare(const fs::path& directory, bool meshes) {
 
 }  // namespace
 
-std::vector<MeshFormat> parse_frame_formats(std::string_view list) {
-  std::vector<MeshFormat> formats{MeshFormat::ply};
-  for (std::size_t start = 0; start <= list.size();) {
-    const std::size_t end = std::min(list.find(',', start), list.size());
-    const MeshFormat format = parse_frame_format(list.substr(start, end - start));
-    if (std::find(formats.begin(), formats.end(), format) == formats.end()) formats.push_back(format);
-    start = end + 1;
-  }
-  return formats;
-}
-
-std::string frame_name(int frame, MeshFormat format) {
-  return fmt::format("frame_{:04}.{}", frame, format_name(format));
-}
-
-bool is_frame_name(std::string_view name) {
-  constexpr std::string_view start = "frame_";
-  if (name.substr(0, start.size()) != start) return false;
-  name.remove_prefix(start.size());
-  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
-  if (digits < 4 || (digits > 4 && name.front() == '0') || digits == name.size() || name[digits] != '.') return false;
-  return std::any_of(std::begin(frame_formats), std::end(frame_formats),
-                     [&](MeshFormat format) { return name.substr(digits + 1) == format_name(format); });
-}
-
 FrameWriter::FrameWriter(fs::path directory, FrameOptions options)
     : directory_(std::move(directory)), options_(std::move(options)) {
   prepare(directory_, options_.meshes);
@@ -91,15 +64,30 @@ FrameWriter::FrameWriter(fs::path directory, FrameOptions options)
 }
 
 void FrameWriter::write(int frame, double time, const std::vector<Drop>& drops) {
-  if (options_.meshes) {
-    MeshData data = to_mesh_data(drops);
-    data.comments.insert(data.comments.begin(), fmt::format("time {:.17g}", time));
-    for (const MeshFormat format : options_.formats) write_mesh(directory_ / frame_name(frame, format), data);
-  }
+  if (options_.meshes) write_meshes(frame, time, drops);
   std::string rows;
   for (const Drop& drop : drops) rows += measures_row(time, measure_drop(drop, options_.density));
   append_measures(rows);
   ++num_frames_;
+}
+
+void FrameWriter::write_meshes(int frame, double time, const std::vector<Drop>& drops) {
+  MeshData data = to_mesh_data(drops);
+  data.comments.insert(data.comments.begin(), fmt::format("time {:.17g}", time));
+  for (const FrameFormat format : options_.formats) {
+    if (format == FrameFormat::usda) continue;  // finish() writes all of them
+    const std::string name = frame_name(frame, format);
+    write_frame(directory_ / name, format, data, time);
+    if (format != FrameFormat::vtp) continue;
+    collection_.emplace_back(time, name);
+    write_file_atomically(directory_ / collection_name, pvd_text(collection_));
+  }
+}
+
+void FrameWriter::finish() const {
+  const auto& formats = options_.formats;
+  if (options_.meshes && std::find(formats.begin(), formats.end(), FrameFormat::usda) != formats.end())
+    write_sequence(directory_ / sequence_name, FrameFormat::usda, find_frames(directory_));
 }
 
 void FrameWriter::append_measures(const std::string& rows) const {

@@ -1,33 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "meniscus/io/mesh_format.h"
+#include "meniscus/frames/frame_format.h"
 #include "meniscus/state/drop.h"
 
 #include <filesystem>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace meniscus {
 
 /// What a run writes beside its table of measures.
 struct FrameOptions {
-  bool meshes = true;                                ///< false: measures.csv only
-  std::vector<MeshFormat> formats{MeshFormat::ply};  ///< of the frames' meshes: PLY, OFF, OBJ
-  double density = 1;                                ///< g/cm^3, for the momentum
+  bool meshes = true;                                  ///< false: measures.csv only
+  std::vector<FrameFormat> formats{FrameFormat::ply};  ///< of the frames' meshes
+  double density = 1;                                  ///< g/cm^3, for the momentum
 };
-
-/// The formats of a list like "ply,off,obj", PLY always first (it alone holds velocities), each once.
-/// Throws UsageError for a name that is no format of frames, saying so of those still to come
-/// (vtp, glb, usda).
-std::vector<MeshFormat> parse_frame_formats(std::string_view list);
-
-/// "frame_0042.ply"; more than four digits from frame 10000 on.
-std::string frame_name(int frame, MeshFormat format);
-
-/// Whether a file's name is one that frame_name gives.
-bool is_frame_name(std::string_view name);
 
 /// Writes the frames of a run into a directory: the meshes, one file a frame and format, each whole
 /// or not at all, and measures.csv, which grows by whole lines.
@@ -40,16 +29,23 @@ class FrameWriter {
 
   /// Writes all drops as one frame: PLY as to_mesh_data(drops) with a comment "time <s>" before the
   /// others; measures.csv gains a line a drop. No drops give an empty mesh. frame >= 0, time in s.
+  /// With VTP, frames.pvd is written anew: ParaView's list of the frames so far with their times.
   /// Throws FileError.
   void write(int frame, double time, const std::vector<Drop>& drops);
+
+  /// Writes what needs all frames: frames.usda, if asked for. Call it when the run ends.
+  /// Throws FileError.
+  void finish() const;
 
   int num_frames() const { return num_frames_; }  ///< written so far
 
  private:
+  void write_meshes(int frame, double time, const std::vector<Drop>& drops);
   void append_measures(const std::string& rows) const;
 
   std::filesystem::path directory_;
   FrameOptions options_;
+  std::vector<std::pair<double, std::string>> collection_;  // times and names of the VTP frames
   int num_frames_ = 0;
 };
 

@@ -5,8 +5,11 @@
 #include "meniscus/core/version.h"
 #include "meniscus/io/write_file_atomically.h"
 #include "meniscus/scene/write_scene.h"
+#include "meniscus/simulation/choose_level.h"
+#include "meniscus/simulation/safe_time_step.h"
 #include "run_statistics.h"
 
+#include <cmath>
 #include <csignal>
 
 namespace meniscus::tools {
@@ -30,6 +33,17 @@ std::size_t num_triangles(const Simulation& simulation) {
   return triangles;
 }
 
+/// What "auto" stands for in this scene, for reports.
+Json choice_report(const Scene& scene) {
+  const LevelChoice choice = choose_level(scene);
+  return {{"model", level_name(choice.level)},
+          {"volume_correction", "global"},
+          {"solver_tolerance", choice.solver.tolerance},
+          {"longest_phase", choice.longest_phase},
+          {"meets_accuracy", choice.meets},
+          {"why", choice.why}};
+}
+
 /// One run, from its first frame to run.json.
 class Evolution {
  public:
@@ -41,6 +55,17 @@ class Evolution {
         simulation_(make_simulation(plan_)),
         statistics_(simulation_) {
     simulation_.set_clock(&seconds_now);
+    safe_time_step_ = safe_time_step(make_step_options(plan_.scene), simulation_.drops());
+  }
+
+  /// What is to be said before the first step: the level that "auto" took, and a time step outside the safe region.
+  void say_plan() const {
+    const Scene& scene = plan_.scene;
+    if (scene.model == Level::automatic) console_.say(choose_level(scene).why);
+    if (scene.time_step > safe_time_step_)
+      console_.say(fmt::format("warning: a time_step of {:.3g} s is outside the region where this level holds on these "
+                               "drops; {:.3g} s is inside (docs/ACCURACY.md)",
+                               scene.time_step, safe_time_step_));
   }
 
   /// What --dry-run says, and -v.
@@ -110,6 +135,8 @@ class Evolution {
     report["scene"] = title();
     report["frames"] = frames_;
     report.update(statistics_.to_json());
+    report["safe_time_step"] = std::isfinite(safe_time_step_) ? Json(safe_time_step_) : Json();
+    if (plan_.scene.model == Level::automatic) report["choice"] = choice_report(plan_.scene);
     write_report(report, common_);
     report["version"] = version();
     report["resolved_scene"] = Json::parse(resolved_scene(plan_.scene));
@@ -129,6 +156,7 @@ class Evolution {
   Simulation simulation_;
   RunStatistics statistics_;
   int frames_ = 0;
+  double safe_time_step_ = 0;
 };
 
 }  // namespace
@@ -141,6 +169,7 @@ int run_evolution(RunPlan plan, const CommonOptions& common) {
     write_report(evolution.plan_report(), common);
     return done;
   }
+  evolution.say_plan();
   std::signal(SIGINT, catch_signal);
   std::signal(SIGTERM, catch_signal);
   common.console().say_verbose(evolution.describe());

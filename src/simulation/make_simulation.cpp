@@ -4,6 +4,7 @@
 #include "meniscus/geometry/shapes.h"
 #include "meniscus/io/read_mesh.h"
 #include "meniscus/operators/external_forces.h"
+#include "meniscus/simulation/choose_level.h"
 #include "meniscus/simulation/simulation.h"
 
 #include <fmt/format.h>
@@ -206,7 +207,7 @@ StepOptions make_step_options(const Scene& scene) {
   options.band = scene.mesh;
   options.split = scene.topology.split;
   options.solver = scene.solver;
-  return options;
+  return resolve_level(scene, std::move(options));
 }
 
 }  // namespace meniscus

@@ -8,7 +8,9 @@
 #include "meniscus/operators/mean_curvature_flow.h"
 #include "meniscus/operators/tangential_damping.h"
 #include "meniscus/operators/volume_correction.h"
+#include "meniscus/simulation/safe_time_step.h"
 #include "meniscus/topology/split.h"
+#include "recover_step.h"
 
 #include <fmt/format.h>
 
@@ -144,14 +146,9 @@ RemeshOptions remesh_options(const StepOptions& step) {
   return options;
 }
 
-/// At most this much of a drop's lowest mode's phase, sqrt(2), passes in one substep of Level::calibrated:
-/// (omega dt)^2 = 4 c dt^2/R^2 <= 2. Beyond, one implicit step of the flow would shrink the drop by half.
-constexpr double largest_phase_squared = 2;
-/// Near a solid sqrt(c) dt is at most the middle of the edge band: beyond, the contact line and the
-/// surface beside it move past each other within a substep, and the wetted area folds. There, too, a drop moves at most
-/// this share of its ball's radius a substep, so that it meets the solid with its front and not as a whole.
+/// Near a solid a drop moves at most this share of its ball's radius a substep, so that it meets the solid with
+/// its front and not as a whole.
 constexpr double largest_move = 0.5;
-constexpr int most_substeps = 256;
 /// Beyond this relative error of the volume a run has failed.
 constexpr double largest_volume_error = 2;
 
@@ -172,17 +169,13 @@ int num_substeps(Drop& drop, const std::vector<Solid>& solids, double time, doub
     return solid.is_near(box, time, move + solid.velocity(time).norm() * dt);
   });
   double substeps = near ? std::max(1.0, move / (largest_move * length)) : 1;
-  if (options.level != Level::paper) {
-    const double sqrt_c = std::sqrt(2 * options.liquid.surface_tension / (options.liquid.density * length));
-    substeps = std::max(substeps, std::sqrt(4 / largest_phase_squared) * sqrt_c * dt / length);
-    if (near) substeps = std::max(substeps, sqrt_c * dt / (0.5 * (options.band.edge_min + options.band.edge_max)));
-  }
+  substeps = std::max(substeps, dt / longest_substep(options, length, near));
   return static_cast<int>(std::ceil(std::min(substeps, static_cast<double>(most_substeps))));
 }
 
-/// One substep: the paper's Figure 1.
-std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
-                          const StepOptions& options, Remesher& remesher, StepReport& report) {
+/// The operators of one substep, in the order of the paper's Figure 1.
+void deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt, const StepOptions& options,
+            StepReport& report) {
   StageClock clock(options.clock, report);
   const ExternalForcesReport forces =
       apply_external_forces(drop, solids, time, dt, external_forces_options(drop, options));
@@ -220,7 +213,16 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
                     "a smaller time step, or the level \"calibrated\"",
                     drop.id(), 1 + volume.relative_error));
   clock.done(Stage::volume_correction);
+}
 
+/// One substep: operators, remesh, split.
+std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
+                          const StepOptions& options, Remesher& remesher, StepReport& report) {
+  deform_or_recover(drop, time, dt, options, report,
+                    [&](Drop& moving, double to, double step, const StepOptions& at, StepReport& sum) {
+                      deform(moving, solids, to, step, at, sum);
+                    });
+  StageClock clock(options.clock, report);
   std::vector<Drop> pieces;
   RemeshReport remeshed;
   if (options.remesh) remeshed = remesher.remesh(drop, remesh_options(options));
@@ -254,6 +256,7 @@ StepReport& StepReport::operator+=(const StepReport& other) {
   cuts += other.cuts;
   deleted += other.deleted;
   limited_volume += other.limited_volume;
+  recoveries += other.recoveries;
   substeps = std::max(substeps, other.substeps);
   solver_iterations = std::max(solver_iterations, other.solver_iterations);
   worst_volume_error = std::max(worst_volume_error, other.worst_volume_error);

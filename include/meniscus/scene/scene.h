@@ -80,6 +80,7 @@ struct Scene {
   Eigen::Vector3d gravity{0, 0, -981};  ///< cm/s^2
   Liquid liquid;
   Level model = Level::calibrated;
+  Accuracy accuracy = Accuracy::shape;  ///< read by Level::automatic only
   PaperCoefficients paper;
   VolumeCorrectionMethod volume_correction = VolumeCorrectionMethod::global;
   EdgeBand mesh;

@@ -25,6 +25,10 @@ enum class Stage {
 inline constexpr std::size_t num_stages = 8;
 const char* stage_name(Stage stage);  ///< "external_forces", ...
 
+/// omega dt, radians, that passes of a drop's lowest mode in one substep at most, at levels that cut their steps:
+/// beyond, one implicit step of the flow would shrink the drop by half.
+inline constexpr double default_longest_phase = 1.41421356237309505;
+
 /// Everything a step needs to know, the same for every drop.
 struct StepOptions {
   Level level = Level::calibrated;
@@ -33,6 +37,7 @@ struct StepOptions {
   PaperCoefficients paper;  ///< read by Level::paper only
   VolumeCorrectionMethod volume_correction = VolumeCorrectionMethod::global;
   EdgeBand band;
+  double longest_phase = default_longest_phase;  ///< radians, in (0, default_longest_phase]
   bool remesh = true;
   bool split = true;
   SolverOptions solver;
@@ -48,6 +53,7 @@ struct StepReport {
   std::size_t cuts = 0;                            ///< necks cut
   std::size_t deleted = 0;                         ///< pieces too small to go on as drops
   std::size_t limited_volume = 0;                  ///< volume corrections cut to their limit
+  std::size_t recoveries = 0;                      ///< substeps taken back and redone in halves
   int substeps = 0;                                ///< most of any drop
   int solver_iterations = 0;                       ///< most of any drop
   double worst_volume_error = 0;                   ///< largest |V - V_target| / V_target before topology changed

@@ -15,6 +15,14 @@ struct Liquid {
 enum class Level {
   paper,       ///< as the paper writes it, with the least change that makes it stable
   calibrated,  ///< the same operators, with coefficients from the liquid: the same motion at any time step
+  automatic,   ///< the cheapest that the measured tables say is accurate enough: see choose_level
+};
+
+/// What a scene asks of Level::automatic (choose_level).
+enum class Accuracy {
+  look,    ///< plausible shapes
+  shape,   ///< shapes at rest within 1 %
+  motion,  ///< and oscillations within 2 %
 };
 
 /// The paper's own coefficients, read by Level::paper only.

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace meniscus::tools {
+
+/// The benchmarks that lie beside this program: bench_<name> in ../bench (a
+/// build) or ../libexec/meniscus, sorted.
+std::vector<std::string> bench_names();
+
+/// Becomes the benchmark of that name with these arguments; returns only by
+/// throwing UsageError, which names the nearest one or says that the benchmarks
+/// were not built.
+[[noreturn]] void become_bench(const std::string& name, const std::vector<std::string>& arguments);
+
+}  // namespace meniscus::tools

@@ -31,8 +31,9 @@ void add_bench(CLI::App& app, Run& run) {
     run = [=]() -> int {
       const std::vector<std::string> words = verb->remaining();
       if (!words.empty()) become_bench(words.front(), {words.begin() + 1, words.end()});
-      write_stdout(fmt::format("{}\nEach is a program of the source tree, bench/ (CONTRIBUTING.md says what it measures).\n",
-                               fmt::join(bench_names(), "\n")));
+      write_stdout(
+          fmt::format("{}\nEach is a program of the source tree, bench/ (CONTRIBUTING.md says what it measures).\n",
+                      fmt::join(bench_names(), "\n")));
       return done;
     };
   });

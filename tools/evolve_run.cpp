@@ -63,9 +63,10 @@ class Evolution {
     const Scene& scene = plan_.scene;
     if (scene.model == Level::automatic) console_.say(choose_level(scene).why);
     if (scene.time_step > safe_time_step_)
-      console_.say(fmt::format("warning: a time_step of {:.3g} s is outside the region where this level holds on these "
-                               "drops; {:.3g} s is inside (docs/ACCURACY.md)",
-                               scene.time_step, safe_time_step_));
+      console_.say(
+          fmt::format("warning: a time_step of {:.3g} s is outside the region where this level holds on these "
+                      "drops; {:.3g} s is inside (docs/ACCURACY.md)",
+                      scene.time_step, safe_time_step_));
   }
 
   /// What --dry-run says, and -v.

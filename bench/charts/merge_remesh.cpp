@@ -48,7 +48,8 @@ void add(ChartTable& table, const char* what, const Drop& drop, double edge, dou
 }  // namespace
 
 ChartTable merge_remesh_chart(bool quick) {
-  ChartTable table("merge_remesh", "Two balls of R = 0.2 cm, 1.2 R apart, merged, then remeshed to [0.5, 1.5] of their edges",
+  ChartTable table("merge_remesh",
+                   "Two balls of R = 0.2 cm, 1.2 R apart, merged, then remeshed to [0.5, 1.5] of their edges",
                    {"what", "edge", "triangles", "volume_error", "volume_change", "area_error", "area_change",
                     "curvature_error", "cpu_seconds"});
   for (const double edge : {0.06, 0.04, 0.02, 0.01, 0.005}) {

@@ -44,9 +44,10 @@ void recurse(Drop& drop, double time, double dt, const StepOptions& options, Ste
   }
   kept.restore(drop);
   if (halvings == most_halvings)
-    throw NumericsError(fmt::format("drop {} at {:.6g} s: {}, even in substeps of {:.2g} s; use a smaller time step, "
-                                    "or a level that holds there (docs/ACCURACY.md)",
-                                    drop.id(), time, wrong, dt));
+    throw NumericsError(
+        fmt::format("drop {} at {:.6g} s: {}, even in substeps of {:.2g} s; use a smaller time step, "
+                    "or a level that holds there (docs/ACCURACY.md)",
+                    drop.id(), time, wrong, dt));
   ++report.recoveries;
   const StepOptions half = at_half_step(options);
   recurse(drop, time - 0.5 * dt, 0.5 * dt, half, report, deform, kept, halvings + 1);

@@ -34,14 +34,14 @@ class KeptState {
 /// The limits are far above what any sound substep does (docs/ACCURACY.md). One pass over faces.
 std::string blow_up(const Drop& drop, const SurfaceGeometry& geometry, const KeptState& before);
 
-/// The operators of a substep: moves the drop from time - dt to time. Leaves drop.workspace().geometry as it computed it.
-using Deform =
-    std::function<void(Drop& drop, double time, double dt, const StepOptions& options, StepReport& report)>;
+/// The operators of a substep: moves the drop from time - dt to time. Leaves drop.workspace().geometry as it computed
+/// it.
+using Deform = std::function<void(Drop& drop, double time, double dt, const StepOptions& options, StepReport& report)>;
 
-/// Runs `deform`; if the drop blew up or it threw NumericsError, takes the drop back and goes the same way in two halves,
-/// each likewise, down to 1/64, and counts that in report.recoveries. At Level::paper gamma and alpha are per step:
-/// halves get half of them, so that the acceleration stays.
-/// Throws NumericsError, with the drop as it was, when 1/64 fails too.
+/// Runs `deform`; if the drop blew up or it threw NumericsError, takes the drop back and goes the same way in two
+/// halves, each likewise, down to 1/64, and counts that in report.recoveries. At Level::paper gamma and alpha are per
+/// step: halves get half of them, so that the acceleration stays. Throws NumericsError, with the drop as it was, when
+/// 1/64 fails too.
 void deform_or_recover(Drop& drop, double time, double dt, const StepOptions& options, StepReport& report,
                        const Deform& deform);
 

@@ -54,20 +54,22 @@ void RunStatistics::add_step(const Simulation& simulation, const StepReport& rep
   final_volume_ = simulation.volume();
   time_ = simulation.time();
   num_drops_ = simulation.drops().size();
-  if (initial_volume_ > 0)
-    worst_error_ = std::max(worst_error_, std::abs(final_volume_ - initial_volume_) / initial_volume_);
+  const double expected = initial_volume_ + sum_.volume_added;
+  if (expected > 0) worst_error_ = std::max(worst_error_, std::abs(final_volume_ - expected) / expected);
 }
 
 double RunStatistics::triangle_steps_per_second() const {
   const double stepping = std::accumulate(step_seconds_.begin(), step_seconds_.end(), 0.0);
-  return stepping > 0 ? static_cast<double>(sum_.triangles) / stepping : 0;
+  return stepping > 0 ? static_cast<double>(sum_.triangles - sum_.asleep_triangles) / stepping : 0;
 }
 
 Json RunStatistics::to_json() const {
   std::vector<double> sorted = step_seconds_;
   std::sort(sorted.begin(), sorted.end());
   const std::size_t steps = sorted.size();
-  Json stages = Json::object();
+  Json stages = Json::object(), skipped = Json::object();
+  for (std::size_t k = 0; k < num_stages; ++k)
+    if (sum_.skipped[k] > 0) skipped[stage_name(static_cast<Stage>(k))] = sum_.skipped[k];
   for (std::size_t k = 0; k < num_stages; ++k)
     stages[stage_name(static_cast<Stage>(k))] = 1e3 * per(sum_.stage_seconds[k], steps);
   return {{"steps", steps},
@@ -82,6 +84,7 @@ Json RunStatistics::to_json() const {
             {"p99", 1e3 * quantile(sorted, 0.99)},
             {"max", 1e3 * quantile(sorted, 1)}}},
           {"stage_ms", std::move(stages)},
+          {"stage_skipped", std::move(skipped)},
           {"counts",
            {{"merges", 0},
             {"splits", sum_.cuts},
@@ -89,10 +92,11 @@ Json RunStatistics::to_json() const {
             {"retries", 0},
             {"refused", 0},
             {"edge_operations", sum_.edge_operations},
+            {"asleep_drop_steps", sum_.asleep},
             {"limited_volume_corrections", sum_.limited_volume}}},
           {"volume",
            {{"initial", initial_volume_},
-            {"added", 0.0},
+            {"added", sum_.volume_added},
             {"final", final_volume_},
             {"worst_relative_error", worst_error_}}},
           {"drops", num_drops_}};

@@ -13,6 +13,9 @@ using Eigen::Vector3d;
 /// How often a vertex that leaves one solid may end up in another before it is left where it is.
 constexpr int max_collision_passes = 3;
 
+constexpr double least_turn_cosine = 0.8660254037844387;  // 30 degrees
+constexpr int most_halvings = 5;
+
 /// v += g dt; x += v dt. Returns the box of the new positions; throws if it is not finite.
 Eigen::AlignedBox3d fall(Drop& drop, const Vector3d& gravity, double dt) {
   Columns x = drop.positions(), v = drop.velocities();
@@ -92,7 +95,11 @@ class Collider {
     std::int32_t& touched = drop_.contact_solid()[i];
     if (!stays) touched = -1;
     bool colliding = stays && touched >= 0;
-    if (colliding) place_on(static_cast<std::size_t>(touched), i, solids_[touched].query(x_.col(i), time_), true);
+    if (colliding && solids_[touched].inflow) {
+      hold(i, solids_[touched], before);
+      return true;
+    }
+    if (colliding) place_on(static_cast<std::size_t>(touched), i, follow(i, solids_[touched], before), true);
     for (int pass = 0; pass < max_collision_passes; ++pass) {
       std::size_t deepest = solids_.size();
       SolidContact contact{0, Vector3d::Zero(), Vector3d::Zero()};
@@ -115,6 +122,31 @@ class Collider {
   }
 
  private:
+  /// Where a vertex that stays on its solid is now. A contact line vertex goes no further than the normal turns
+  /// by 30 degrees, so that it does not pass an edge without having been on it: there Gibbs's condition holds it.
+  SolidContact follow(std::uint32_t i, const Solid& solid, Contact before) {
+    SolidContact contact = solid.query(x_.col(i), time_);
+    if (before != Contact::line) return contact;
+    const Vector3d solid_velocity = solid.velocity(time_), normal_old = n_.col(i);
+    for (int halving = 0; halving < most_halvings && contact.normal.dot(normal_old) < least_turn_cosine; ++halving) {
+      const Vector3d back = 0.5 * (v_.col(i) - solid_velocity);
+      v_.col(i) -= back;
+      x_.col(i) -= back * dt_;
+      contact = solid.query(x_.col(i), time_);
+    }
+    return contact;
+  }
+
+  /// On a source: where it was, with the velocity of what comes out.
+  void hold(std::uint32_t i, const Solid& source, Contact before) {
+    const Vector3d solid_velocity = source.velocity(time_);
+    const Vector3d was = x_.col(i) - (v_.col(i) - solid_velocity) * dt_;
+    const SolidContact contact = source.query(was, time_);
+    x_.col(i) = before == Contact::line ? source.rim_point(was, time_) : contact.point;
+    v_.col(i) = solid_velocity + source.inflow->speed_at(time_) * contact.normal;
+    n_.col(i) = contact.normal;
+  }
+
   /// To the nearest point of the solid, without relative velocity along the normal (Eq 1).
   void place_on(std::size_t s, std::uint32_t i, const SolidContact& contact, bool keep_normal) {
     const Vector3d relative = v_.col(i) - solids_[s].velocity(time_);

@@ -2,6 +2,7 @@
 #include "meniscus/simulation/step.h"
 
 #include "meniscus/core/error.h"
+#include "meniscus/geometry/rigid_motion.h"
 #include "meniscus/operators/contact_angle.h"
 #include "meniscus/operators/damping.h"
 #include "meniscus/operators/external_forces.h"
@@ -53,17 +54,43 @@ bool is_in_contact(const Drop& drop) {
   return drop.num_rows() > 0 && std::any_of(drop.contact(), drop.contact() + drop.num_rows(), is_colliding);
 }
 
-/// Whether gravity acts as a pressure: on a drop that a solid holds. In flight, and in Level::paper, it
-/// moves the vertices instead.
-bool gravity_is_pressure(const Drop& drop, const StepOptions& step) {
-  return step.level != Level::paper && step.liquid.surface_tension > 0 && is_in_contact(drop);
+/// From this Weber number rho v^2 D/sigma on, what comes from a source is a jet and no longer drips from it
+/// (Clanet and Lasheras 1999: about 4 where gravity matters little).
+constexpr double jet_weber = 4;
+
+/// Whether a drop is a jet: some source that it hangs from is running, faster than surface tension can hold back.
+/// Its vertices are then in free fall along it. Level::paper knows no Weber number.
+bool is_jet(const Drop& drop, const std::vector<Solid>& solids, double time, const StepOptions& step) {
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    const Solid& solid = solids[s];
+    if (!solid.inflow || !hangs_from(drop, static_cast<std::int32_t>(s))) continue;
+    const double speed = solid.inflow->speed_at(time), diameter = 2 * solid.inflow->radius;
+    if (speed == 0) continue;
+    if (step.level == Level::paper) return true;
+    if (step.liquid.density * speed * speed * diameter > jet_weber * step.liquid.surface_tension) return true;
+  }
+  return false;
+}
+
+/// The one of a drop's pieces that hangs from a source; the first if none does.
+Drop& fed_drop(std::vector<Drop>& pieces, const std::vector<Solid>& solids) {
+  for (Drop& piece : pieces)
+    for (std::size_t s = 0; s < solids.size(); ++s)
+      if (solids[s].inflow && hangs_from(piece, static_cast<std::int32_t>(s))) return piece;
+  return pieces.front();
+}
+
+/// Whether gravity acts as a pressure: on a drop that a solid holds. In flight, in a jet, and in Level::paper,
+/// it moves the vertices instead.
+bool gravity_is_pressure(const Drop& drop, bool jet, const StepOptions& step) {
+  return step.level != Level::paper && step.liquid.surface_tension > 0 && !jet && is_in_contact(drop);
 }
 
 /// What holds against the curvature at rest.
-BodyPressure body_pressure(const Drop& drop, const SurfaceGeometry& geometry, const StepOptions& step) {
+BodyPressure body_pressure(const Drop& drop, const SurfaceGeometry& geometry, bool jet, const StepOptions& step) {
   BodyPressure pressure;
   if (step.level == Level::paper) return pressure;
-  if (gravity_is_pressure(drop, step)) {
+  if (gravity_is_pressure(drop, jet, step)) {
     pressure.gradient = step.liquid.density / step.liquid.surface_tension * step.gravity;
     pressure.center = drop.positions().col(0);
   }
@@ -71,9 +98,9 @@ BodyPressure body_pressure(const Drop& drop, const SurfaceGeometry& geometry, co
   return pressure;
 }
 
-ExternalForcesOptions external_forces_options(const Drop& drop, const StepOptions& step) {
+ExternalForcesOptions external_forces_options(const Drop& drop, bool jet, const StepOptions& step) {
   ExternalForcesOptions options;
-  options.gravity = gravity_is_pressure(drop, step) ? Vector3d(Vector3d::Zero()) : step.gravity;
+  options.gravity = gravity_is_pressure(drop, jet, step) ? Vector3d(Vector3d::Zero()) : step.gravity;
   options.friction_per_step = step.level == Level::paper;
   options.no_slip = step.level != Level::paper;
   return options;
@@ -180,18 +207,29 @@ int num_substeps(Drop& drop, const std::vector<Solid>& solids, double time, doub
   return static_cast<int>(std::ceil(std::min(substeps, static_cast<double>(most_substeps))));
 }
 
+/// A piece smaller than edges are long has no shape to change: of the violent motion of the neck that it was torn
+/// from it keeps the translation. Its few vertices would turn it over otherwise.
+void stiffen_speck(Drop& piece, const EdgeBand& band) {
+  if (ball_radius(piece) > band.edge_max) return;
+  SurfaceGeometry& geometry = piece.workspace().geometry;
+  geometry.compute(std::as_const(piece).positions(), piece.connectivity());
+  const Vector3d mean = fit_rigid_motion(piece.positions(), piece.velocities(), geometry).translation;
+  piece.velocities().colwise() = mean;
+}
+
 /// One substep: the paper's Figure 1.
 std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                           const StepOptions& options, Remesher& remesher, StepReport& report) {
   StageClock clock(options.clock, report);
+  const bool jet = is_jet(drop, solids, time, options);
   const ExternalForcesReport forces =
-      apply_external_forces(drop, solids, time, dt, external_forces_options(drop, options));
+      apply_external_forces(drop, solids, time, dt, external_forces_options(drop, jet, options));
   clock.done(Stage::external_forces);
 
   SurfaceGeometry& geometry = drop.workspace().geometry;
   geometry.compute(std::as_const(drop).positions(), drop.connectivity());
   const double tension = tension_over_mass(drop, geometry, options.liquid);
-  const BodyPressure pressure = body_pressure(drop, geometry, options);
+  const BodyPressure pressure = body_pressure(drop, geometry, jet, options);
   clock.done(Stage::geometry);
 
   apply_damping(drop, geometry, dt, damping_options(options));
@@ -201,13 +239,15 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
   // correction will give it again, and the angle is off by as much: the line moves before.
   if (forces.colliding > 0)
     apply_contact_angle(drop, solids, geometry, time, dt, contact_angle_options(options, pressure, tension));
+  else
+    report.skip(Stage::contact_angle);
   clock.done(Stage::contact_angle);
 
   const SolveReport flow = flow_by_mean_curvature(drop, geometry, dt, flow_options(options, pressure, tension, dt));
   report.solver_iterations = std::max(report.solver_iterations, flow.iterations);
   clock.done(Stage::curvature_flow);
 
-  remove_tangential_deformation(drop, geometry, dt);
+  if (!jet) remove_tangential_deformation(drop, geometry, dt);
   clock.done(Stage::damping);
 
   const VolumeCorrectionReport volume = correct_volume(drop, geometry, dt, volume_options(options, drop));
@@ -221,9 +261,12 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
                     drop.id(), 1 + volume.relative_error));
   clock.done(Stage::volume_correction);
 
+  if (options.volume_correction == VolumeCorrectionMethod::none) report.skip(Stage::volume_correction);
+
   std::vector<Drop> pieces;
   RemeshReport remeshed;
   if (options.remesh) remeshed = remesher.remesh(drop, remesh_options(options));
+  if (!remeshed.changed()) report.skip(Stage::remesh);
   report.edge_operations += remeshed.splits + remeshed.collapses + remeshed.flips + remeshed.lifts;
   report.cuts += remeshed.cuts;
   clock.done(Stage::remesh);
@@ -232,8 +275,10 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
     SplitReport split;
     pieces = split_components(std::move(drop), split);
     report.deleted += split.deleted + split.deleted_empty;
+    for (Drop& piece : pieces) stiffen_speck(piece, options.band);
   } else {
     pieces.push_back(std::move(drop));
+    report.skip(Stage::split);
   }
   clock.done(Stage::split);
   return pieces;
@@ -254,6 +299,10 @@ StepReport& StepReport::operator+=(const StepReport& other) {
   cuts += other.cuts;
   deleted += other.deleted;
   limited_volume += other.limited_volume;
+  asleep += other.asleep;
+  asleep_triangles += other.asleep_triangles;
+  volume_added += other.volume_added;
+  for (std::size_t k = 0; k < num_stages; ++k) skipped[k] += other.skipped[k];
   substeps = std::max(substeps, other.substeps);
   solver_iterations = std::max(solver_iterations, other.solver_iterations);
   worst_volume_error = std::max(worst_volume_error, other.worst_volume_error);
@@ -264,9 +313,15 @@ std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double 
                             const StepOptions& options, Remesher& remesher, StepReport& report) {
   const int substeps = num_substeps(drop, solids, time, dt, options);
   report.substeps = substeps;
+  const double inflow = drop.inflow();
+  drop.set_inflow(0);
   std::vector<Drop> drops;
   drops.push_back(std::move(drop));
   for (int k = substeps - 1; k >= 0; --k) {
+    if (inflow > 0 && !drops.empty()) {
+      Drop& fed = fed_drop(drops, solids);
+      fed.set_target_volume(fed.target_volume() + inflow * (dt / substeps));
+    }
     std::vector<Drop> next;
     for (Drop& piece : drops)
       for (Drop& part :
@@ -274,6 +329,7 @@ std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double 
         next.push_back(std::move(part));
     drops = std::move(next);
   }
+  if (inflow > 0 && !drops.empty()) fed_drop(drops, solids).set_inflow(inflow);
   for (const Drop& piece : drops) report.triangles += piece.mesh().number_of_faces();
   return drops;
 }

@@ -50,6 +50,8 @@ Drop::Drop(const Drop& other)
       connectivity_(other.connectivity_),
       target_volume_(other.target_volume_),
       topology_version_(other.topology_version_),
+      rest_time_(other.rest_time_),
+      inflow_(other.inflow_),
       id_(other.id_) {
   bind();
 }
@@ -75,6 +77,13 @@ bool Drop::collect_garbage(double share) {
   connectivity_.rebuild(mesh_);
   topology_changed();
   return true;
+}
+
+bool hangs_from(const Drop& drop, std::int32_t solid) {
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+    if (is_colliding(drop.contact()[i]) && drop.contact_solid()[i] == solid && drop.connectivity().degree(i) > 0)
+      return true;
+  return false;
 }
 
 }  // namespace meniscus

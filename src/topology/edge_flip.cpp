@@ -26,8 +26,8 @@ bool would_disturb_contact_line(const RemeshState& state, HalfedgeIndex h) {
   // Both new faces must face the solid, or the edge would no longer lie inside the wetted area.
   const auto faces_solid = [&](VertexIndex v, VertexIndex first, VertexIndex second) {
     const Eigen::Vector3d x = state.point(v);
-    return (state.point(first) - x).cross(state.point(second) - x).dot(state.contact_normal(first)) < 0 &&
-           (state.point(first) - x).cross(state.point(second) - x).dot(state.contact_normal(second)) < 0;
+    const Eigen::Vector3d n = state.contact_normal(v) + state.contact_normal(first) + state.contact_normal(second);
+    return (state.point(first) - x).cross(state.point(second) - x).dot(n) < 0;
   };
   return !faces_solid(mesh.source(h), p, o) || !faces_solid(mesh.target(h), o, p);
 }

@@ -35,14 +35,18 @@ Eigen::Vector3d RemeshState::normal(VertexIndex v) const {
   return length > 0 ? Eigen::Vector3d(sum / length) : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
+Eigen::Vector3d RemeshState::solid_normal(HalfedgeIndex h) const {
+  return (contact_normal(mesh.source(h)) + contact_normal(mesh.target(h)) + contact_normal(apex(h))) / 3;
+}
+
 double RemeshState::facing_solid(HalfedgeIndex h) const {
   const Eigen::Vector3d a = point(mesh.source(h)), b = point(mesh.target(h)), c = point(apex(h));
   const double longest2 = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  return longest2 > 0 ? -0.5 * (b - a).cross(c - a).dot(contact_normal(mesh.source(h))) / longest2 : 0;
+  return longest2 > 0 ? -0.5 * (b - a).cross(c - a).dot(solid_normal(h)) / longest2 : 0;
 }
 
 bool RemeshState::is_wet_face(HalfedgeIndex h) const {
-  return is_colliding_face(h) && area_vector(h).dot(contact_normal(mesh.source(h))) < 0;
+  return is_colliding_face(h) && area_vector(h).dot(solid_normal(h)) < 0;
 }
 
 bool RemeshState::inside_wetted_area(HalfedgeIndex h) const {
@@ -55,8 +59,20 @@ bool RemeshState::is_contact_line(HalfedgeIndex h) const {
 
 double RemeshState::squared_length(HalfedgeIndex h) const {
   const double length2 = (point(mesh.target(h)) - point(mesh.source(h))).squaredNorm();
-  const double weight = options.band.wetted_weight;
-  return inside_wetted_area(h) ? weight * weight * length2 : length2;
+  double weight = 1;
+  if (inside_wetted_area(h))
+    weight = options.band.wetted_weight;
+  else if (options.band.refinement > 1)
+    weight = curvature_weight(h);
+  return weight * weight * length2;
+}
+
+double RemeshState::curvature_weight(HalfedgeIndex h) const {
+  const auto a = mesh.source(h), b = mesh.target(h);
+  if (colliding(a) || colliding(b)) return 1;  // the normal turns at the contact line for other reasons
+  const double turn = (normal(b) - normal(a)).norm(), length = (point(b) - point(a)).norm();
+  const double middle = 0.5 * (options.band.edge_min + options.band.edge_max);
+  return length > 0 ? std::clamp(turn / length * middle / most_turn, 1.0, options.band.refinement) : 1;
 }
 
 bool RemeshState::is_long(double length2) const {

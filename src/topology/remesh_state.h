@@ -84,7 +84,9 @@ struct RemeshState {
   }
   /// The solid's outward unit normal at a colliding vertex.
   Eigen::Vector3d contact_normal(VertexIndex v) const { return std::as_const(drop).contact_normals().col(v); }
-  /// The part of the area vector of the face left of h that faces into the solid at its source, in
+  /// The mean of the contact normals of the face left of h: over an edge of the solid, one alone will not do.
+  Eigen::Vector3d solid_normal(HalfedgeIndex h) const;
+  /// The part of the area vector of the face left of h that faces into its solid, in
   /// squares of its longest side: 0.43 at most, negative if it faces away.
   double facing_solid(HalfedgeIndex h) const;
   /// The face left of h lies on a solid: its vertices are colliding, and it faces into the solid.
@@ -93,8 +95,11 @@ struct RemeshState {
   bool inside_wetted_area(HalfedgeIndex h) const;
   /// One face is wet, the other is not.
   bool is_contact_line(HalfedgeIndex h) const;
-  /// Squared length as the band sees it: weighted inside the wetted area.
+  /// Squared length as the band sees it: weighted inside the wetted area, and where the free surface curves.
   double squared_length(HalfedgeIndex h) const;
+  /// The factor, 1 to band.refinement, by which an edge in the middle of the band turns the normal by more than
+  /// most_turn.
+  double curvature_weight(HalfedgeIndex h) const;
   bool is_long(double squared_length) const;
   bool is_short(double squared_length) const { return squared_length < options.band.edge_min * options.band.edge_min; }
   bool is_forbidden(const Eigen::Vector3d& p) const;
@@ -118,6 +123,9 @@ constexpr double negative_weight = -1e-4;
 
 /// A face of three colliding vertices whose facing_solid is less is turned over, or nearly so.
 constexpr double hardly_facing = 0.01;
+
+/// Along an edge of the free surface the normal turns by no more than this (radians), as far as the band allows.
+constexpr double most_turn = 0.5;
 
 /// How far a vertex is lifted off a solid where the liquid has no thickness, in lengths of edge_min.
 constexpr double lift_in_edges = 0.02;

@@ -28,7 +28,8 @@ struct ExternalForcesReport {
 ///
 /// A vertex that was colliding and belongs to a wetted face stays on its solid: nothing can come
 /// between. It is the contact line that moves off, along the solid; the last vertices without a
-/// wetted face are free to leave.
+/// wetted face are free to leave. On a source (Solid::inflow) they stay where they are, the line on the
+/// disc's rim, with the velocity of what comes out.
 ///
 /// Reads and writes positions (cm), velocities (cm/s), contact state, normals and solids.
 /// A drop far from every solid, or no solids: no contact work. dt = 0 moves nothing.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meniscus/scene/scene.h"
+#include "meniscus/simulation/source.h"
 #include "meniscus/simulation/step.h"
 
 #include <vector>
@@ -11,7 +12,8 @@ namespace meniscus {
 /// Drops that start within this distance of a solid start on it (cm).
 inline constexpr double contact_tolerance = 1e-9;
 
-/// The solids that a scene describes. Throws FileError, UsageError or GeometryError, naming the solid.
+/// The solids that a scene describes, and behind them the discs of its sources. Throws FileError, UsageError or
+/// GeometryError, naming the solid.
 std::vector<Solid> make_solids(const Scene& scene);
 
 /// The drops that a scene describes, numbered from 0 in its order; a mesh file of several drops
@@ -47,6 +49,8 @@ class Simulation {
   std::vector<Solid> solids_;
   std::vector<Drop> drops_;
   StepOptions options_;
+  SourceFeed feed_;
+  bool sleep_ = false;
   double time_step_ = 0, time_ = 0;
   std::size_t num_steps_ = 0;
   int next_id_ = 0;

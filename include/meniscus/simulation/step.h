@@ -50,9 +50,14 @@ struct StepReport {
   std::size_t limited_volume = 0;                  ///< volume corrections cut to their limit
   int substeps = 0;                                ///< most of any drop
   int solver_iterations = 0;                       ///< most of any drop
+  std::size_t asleep = 0;                          ///< drops that were not stepped, being at rest
+  std::size_t asleep_triangles = 0;                ///< theirs; `triangles` counts them too
+  std::array<std::size_t, num_stages> skipped{};   ///< by stage: substeps of a drop in which it had nothing to do
+  double volume_added = 0;                         ///< by sources, cm^3
   double worst_volume_error = 0;                   ///< largest |V - V_target| / V_target before topology changed
 
   StepReport& operator+=(const StepReport& other);
+  void skip(Stage stage) { ++skipped[static_cast<std::size_t>(stage)]; }
 };
 
 /// One step of one drop, from time - dt to time (s): the paper's Figure 1 from external forces to

@@ -15,6 +15,8 @@ struct ContactLineVertex {
   double energy_cosine;     ///< cos(theta) by virtual work: grad A_air . outward / length
   double volume_gradient;   ///< the volume's derivative for a move along `outward`, cm^2
   double stiffness;         ///< L_ii of the water-air faces alone: the growth of the force with the move
+  Eigen::Vector3d middle;   ///< midway between the neighbours on the line
+  double turn;              ///< by which the line turns here, radians, 0 where it is straight
 };
 
 /// Looks at vertex v, whose contact state must be Contact::line. Nothing if its line length or

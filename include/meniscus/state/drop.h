@@ -97,8 +97,14 @@ class Drop {
   double volume() const { return enclosed_volume(positions(), connectivity_); }  ///< cm^3
   double target_volume() const { return target_volume_; }                        ///< cm^3
   void set_target_volume(double volume) { target_volume_ = volume; }
+  /// What sources give it in this step, cm^3/s.
+  double inflow() const { return inflow_; }
+  void set_inflow(double rate) { inflow_ = rate; }
   int id() const { return id_; }
   void set_id(int id) { id_ = id; }
+  /// For how long it has been at rest (s); counted by whoever lets drops sleep.
+  double rest_time() const { return rest_time_; }
+  void set_rest_time(double seconds) { rest_time_ = seconds; }
 
  private:
   void bind();
@@ -112,8 +118,12 @@ class Drop {
   Workspace workspace_;
   double target_volume_ = 0;
   std::uint64_t topology_version_ = 1, flow_version_ = 0;
+  double rest_time_ = 0, inflow_ = 0;
   int id_ = 0;
 };
+
+/// Whether some vertex touches solid s.
+bool hangs_from(const Drop& drop, std::int32_t solid);
 
 /// The drops of a mesh file: one for each value of the attribute "drop" (else one for each
 /// connected component), with velocities from "vx", "vy", "vz", contact state from "contact" and

@@ -33,6 +33,7 @@ struct EdgeBand {
   double edge_min = 0.04;      ///< cm, > 0
   double edge_max = 0.12;      ///< cm, > 2 edge_min
   double wetted_weight = 0.5;  ///< factor on the length of an edge inside the wetted area, in (0, 1]
+  double refinement = 1;       ///< how many times shorter edges may be where the free surface curves, >= 1
 };
 
 }  // namespace meniscus

@@ -78,8 +78,15 @@ Pick pick_by_motion(double edge_over_radius, bool has_solids) {
 }  // namespace
 
 const char* level_name(Level level) {
-  constexpr const char* names[] = MENISCUS_LEVEL_NAMES;
-  return names[static_cast<std::size_t>(level)];
+  switch (level) {
+    case Level::paper:
+      return "paper";
+    case Level::calibrated:
+      return "calibrated";
+    case Level::automatic:
+      return "auto";
+  }
+  return "";
 }
 
 LevelChoice choose_level(const Scene& scene) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// PLACEHOLDER figures from docs/MODELS.md until `meniscus bench charts --table` has been run: replace before use.
 #pragma once
 #include <cmath>
 #include "meniscus/state/parameters.h"

@@ -81,7 +81,7 @@ class Collider {
         dt_(dt),
         options_(options) {
     for (std::size_t s = 0; s < solids.size(); ++s)
-      if (solids[s].is_near(box, time, 0)) near_.push_back(s);
+      if (solids[s].is_near(box, time, options.touching_distance)) near_.push_back(s);
   }
 
   /// Whether any vertex needs a look: some solid is near, or some vertex was on one.
@@ -98,9 +98,10 @@ class Collider {
       SolidContact contact{0, Vector3d::Zero(), Vector3d::Zero()};
       for (const std::size_t s : near_) {
         if (colliding && static_cast<std::int32_t>(s) == touched) continue;
-        if (!solids_[s].is_near(Eigen::AlignedBox3d(Vector3d(x_.col(i))), time_, 0)) continue;
+        if (!solids_[s].is_near(Eigen::AlignedBox3d(Vector3d(x_.col(i))), time_, options_.touching_distance)) continue;
         const SolidContact candidate = solids_[s].query(x_.col(i), time_);
-        if (candidate.distance <= 0 && (deepest == solids_.size() || candidate.distance < contact.distance)) {
+        if (candidate.distance <= options_.touching_distance &&
+            (deepest == solids_.size() || candidate.distance < contact.distance)) {
           deepest = s;
           contact = candidate;
         }

@@ -141,8 +141,8 @@ void add_sections(Keys<Scene>& keys) {
                    .number("surface_tension", "g/s^2", not_negative, "sigma", MENISCUS_FIELD(liquid.surface_tension))
                    .number("viscosity", "cm^2/s", not_negative, "nu, kinematic", MENISCUS_FIELD(liquid.viscosity)));
   keys.choice<Level>("model", "how closely the motion follows physics",
-                     {{"paper", Level::paper}, {"calibrated", Level::calibrated}},
-                     {"pressure", "dispersive", "potential", "auto"}, MENISCUS_FIELD(model));
+                     {{"paper", Level::paper}, {"calibrated", Level::calibrated}, {"pressure", Level::pressure}},
+                     {"dispersive", "potential", "auto"}, MENISCUS_FIELD(model));
   keys.section("paper", "coefficients of the paper's operators, used by the model \"paper\" only",
                Keys<Scene>()
                    .number("curvature_flow_coefficient", "cm^2/s", not_negative, "gamma (Eq 4)",

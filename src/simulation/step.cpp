@@ -8,7 +8,7 @@
 #include "meniscus/operators/mean_curvature_flow.h"
 #include "meniscus/operators/tangential_damping.h"
 #include "meniscus/operators/volume_correction.h"
-#include "meniscus/topology/split.h"
+#include "step_parts.h"
 
 #include <fmt/format.h>
 
@@ -21,23 +21,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double pi = 3.14159265358979323846;
-
-/// Adds up seconds by stage, if there is a clock.
-class StageClock {
- public:
-  StageClock(double (*clock)(), StepReport& report) : clock_(clock), report_(report), last_(clock ? clock() : 0) {}
-  void done(Stage stage) {
-    if (!clock_) return;
-    const double now = clock_();
-    report_.stage_seconds[static_cast<std::size_t>(stage)] += now - last_;
-    last_ = now;
-  }
-
- private:
-  double (*clock_)();
-  StepReport& report_;
-  double last_;
-};
 
 /// The radius of the ball of the drop's volume (cm).
 double ball_radius(const Drop& drop) { return std::cbrt(3 * drop.target_volume() / (4 * pi)); }
@@ -137,13 +120,6 @@ VolumeCorrectionOptions volume_options(const StepOptions& step, const Drop& drop
   return options;
 }
 
-RemeshOptions remesh_options(const StepOptions& step) {
-  RemeshOptions options;
-  options.band = step.band;
-  options.cut_necks = step.split;
-  return options;
-}
-
 /// At most this much of a drop's lowest mode's phase, sqrt(2), passes in one substep of Level::calibrated:
 /// (omega dt)^2 = 4 c dt^2/R^2 <= 2. Beyond, one implicit step of the flow would shrink the drop by half.
 constexpr double largest_phase_squared = 2;
@@ -221,22 +197,7 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
                     drop.id(), 1 + volume.relative_error));
   clock.done(Stage::volume_correction);
 
-  std::vector<Drop> pieces;
-  RemeshReport remeshed;
-  if (options.remesh) remeshed = remesher.remesh(drop, remesh_options(options));
-  report.edge_operations += remeshed.splits + remeshed.collapses + remeshed.flips + remeshed.lifts;
-  report.cuts += remeshed.cuts;
-  clock.done(Stage::remesh);
-
-  if (remeshed.cuts > 0) {
-    SplitReport split;
-    pieces = split_components(std::move(drop), split);
-    report.deleted += split.deleted + split.deleted_empty;
-  } else {
-    pieces.push_back(std::move(drop));
-  }
-  clock.done(Stage::split);
-  return pieces;
+  return remesh_and_split(std::move(drop), options, remesher, clock, report);
 }
 
 }  // namespace
@@ -254,6 +215,7 @@ StepReport& StepReport::operator+=(const StepReport& other) {
   cuts += other.cuts;
   deleted += other.deleted;
   limited_volume += other.limited_volume;
+  rejected += other.rejected;
   substeps = std::max(substeps, other.substeps);
   solver_iterations = std::max(solver_iterations, other.solver_iterations);
   worst_volume_error = std::max(worst_volume_error, other.worst_volume_error);
@@ -262,6 +224,8 @@ StepReport& StepReport::operator+=(const StepReport& other) {
 
 std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                             const StepOptions& options, Remesher& remesher, StepReport& report) {
+  if (options.level == Level::pressure)
+    return step_by_pressure(std::move(drop), solids, time, dt, options, remesher, report);
   const int substeps = num_substeps(drop, solids, time, dt, options);
   report.substeps = substeps;
   std::vector<Drop> drops;

@@ -66,6 +66,7 @@ void Drop::bind() {
   contact_ = mesh_.add_property_map<VertexIndex, Contact>("v:contact_state", Contact::free).first;
   contact_solid_ = mesh_.add_property_map<VertexIndex, std::int32_t>("v:contact_solid", -1).first;
   poor_quality_ = mesh_.add_property_map<VertexIndex, std::uint8_t>("v:poor_quality", 0).first;
+  line_status_ = mesh_.add_property_map<VertexIndex, std::uint8_t>("v:line_status", 0).first;
 }
 
 bool Drop::collect_garbage(double share) {

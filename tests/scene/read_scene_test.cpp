@@ -203,7 +203,7 @@ TEST(SceneErrors, WordsThatAreNoChoice) {
 }
 
 TEST(SceneErrors, WhatThisVersionCannotDo) {
-  for (const char* model : {"pressure", "dispersive", "potential", "auto"}) {
+  for (const char* model : {"dispersive", "potential", "auto"}) {
     expect_messages(with_drop(std::string("\"model\": \"") + model + "\""),
                     {std::string("s.json:1:11 /model: \"") + model + "\" is not available in this version"});
   }

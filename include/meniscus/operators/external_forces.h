@@ -15,6 +15,7 @@ struct ExternalForcesOptions {
   bool friction_per_step = false;
   /// Whether vertices inside the wetted area stay where they are on the solid (no slip).
   bool no_slip = true;
+  double touching_distance = 0;  ///< cm: vertices this near to a solid are on it
 };
 
 struct ExternalForcesReport {

@@ -48,6 +48,7 @@ struct StepReport {
   std::size_t cuts = 0;                            ///< necks cut
   std::size_t deleted = 0;                         ///< pieces too small to go on as drops
   std::size_t limited_volume = 0;                  ///< volume corrections cut to their limit
+  std::size_t rejected = 0;                        ///< substeps of Level::pressure taken back for shorter ones
   int substeps = 0;                                ///< most of any drop
   int solver_iterations = 0;                       ///< most of any drop
   double worst_volume_error = 0;                   ///< largest |V - V_target| / V_target before topology changed

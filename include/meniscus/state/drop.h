@@ -8,6 +8,7 @@
 #include "meniscus/geometry/surface_geometry.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace meniscus {
@@ -21,6 +22,11 @@ enum class Contact : std::uint8_t {
 
 inline bool is_colliding(Contact contact) { return contact != Contact::free; }
 
+/// What a vertex of the contact line did last, at the level `pressure`; `advancing` off the line.
+enum class LineStatus : std::uint8_t { advancing = 0, stuck = 1, receding = 2 };
+
+struct PressureArrays;  ///< of operators/pressure.h
+
 /// The arrays that operators need within a step, kept so that an unchanged mesh allocates nothing.
 struct Workspace {
   SurfaceGeometry geometry;
@@ -30,6 +36,7 @@ struct Workspace {
   std::vector<Eigen::Vector3d> vectors;
   std::vector<double> scalars, more_scalars;
   std::vector<std::uint8_t> fixed;
+  std::shared_ptr<PressureArrays> pressure;  ///< made at first use
 };
 
 /// A drop of liquid: a closed, outward-oriented triangle mesh with velocities, contact state and
@@ -73,9 +80,18 @@ class Drop {
   /// 1 at vertices whose faces are still bad after remeshing: damping smooths their velocity more.
   std::uint8_t* poor_quality() { return num_rows() == 0 ? nullptr : &poor_quality_[VertexIndex(0)]; }
 
+  /// The state of the contact line that hysteresis needs, kept through remeshing: LineStatus as a number,
+  /// in the map "v:line_status".
+  std::uint8_t* line_statuses() { return num_rows() == 0 ? nullptr : &line_status_[VertexIndex(0)]; }
+  LineStatus line_status(std::uint32_t v) const { return static_cast<LineStatus>(line_status_[VertexIndex(v)]); }
+  void set_line_status(std::uint32_t v, LineStatus status) {
+    line_status_[VertexIndex(v)] = static_cast<std::uint8_t>(status);
+  }
+
   Connectivity& connectivity() { return connectivity_; }
   const Connectivity& connectivity() const { return connectivity_; }
   Workspace& workspace() { return workspace_; }
+  const Workspace& workspace() const { return workspace_; }
 
   /// Counts up whenever elements of the mesh changed, so that kept factors know that they are void.
   std::uint64_t topology_version() const { return topology_version_; }
@@ -107,7 +123,7 @@ class Drop {
   Mesh::Property_map<VertexIndex, Vector> velocity_, displacement_, contact_normal_;
   Mesh::Property_map<VertexIndex, Contact> contact_;
   Mesh::Property_map<VertexIndex, std::int32_t> contact_solid_;
-  Mesh::Property_map<VertexIndex, std::uint8_t> poor_quality_;
+  Mesh::Property_map<VertexIndex, std::uint8_t> poor_quality_, line_status_;
   Connectivity connectivity_;
   Workspace workspace_;
   double target_volume_ = 0;

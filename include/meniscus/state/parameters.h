@@ -15,6 +15,7 @@ struct Liquid {
 enum class Level {
   paper,       ///< as the paper writes it, with the least change that makes it stable
   calibrated,  ///< the same operators, with coefficients from the liquid: the same motion at any time step
+  pressure,    ///< forces from one energy, Newton's motion of the whole, a sticking contact line
 };
 
 /// The paper's own coefficients, read by Level::paper only.

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meniscus/simulation/step.h"
+
+namespace meniscus {
+
+/// Adds up seconds by stage, if there is a clock.
+class StageClock {
+ public:
+  StageClock(double (*clock)(), StepReport& report) : clock_(clock), report_(report), last_(clock ? clock() : 0) {}
+  void done(Stage stage) {
+    if (!clock_) return;
+    const double now = clock_();
+    report_.stage_seconds[static_cast<std::size_t>(stage)] += now - last_;
+    last_ = now;
+  }
+
+ private:
+  double (*clock_)();
+  StepReport& report_;
+  double last_;
+};
+
+/// The end of every substep: brings the edges into the band and takes apart what that cut.
+std::vector<Drop> remesh_and_split(Drop drop, const StepOptions& options, Remesher& remesher, StageClock& clock,
+                                   StepReport& report);
+
+/// step_drop at Level::pressure: substeps as long as the motion allows, each tried and taken back if it was
+/// too long.
+std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, double time, double dt,
+                                   const StepOptions& options, Remesher& remesher, StepReport& report);
+
+}  // namespace meniscus

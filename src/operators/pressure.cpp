@@ -52,6 +52,8 @@ PressureStep::PressureStep(Drop& drop, const std::vector<Solid>& solids, double 
   const PressureSurface& surface = arrays.surface;
   resize_for_solve(drop.num_rows(), arrays);
   arrays.status_before.assign(drop.line_statuses(), drop.line_statuses() + drop.num_rows());
+  const double c = tension_over_mass(surface, options.liquid);
+  if (!surface.in_contact && c > 0) longest_step_ = surface_length(surface) / (2 * std::sqrt(c));
   Vector3d U = Vector3d::Zero();
   for (std::size_t v = 0; v < surface.role.size(); ++v) U += arrays.speed_old[v] * surface.moment[v];
   if (surface.volume > 0) U /= surface.volume;

@@ -42,7 +42,8 @@ void take_substep(Traveller& traveller, const std::vector<Solid>& solids, double
   PressureStep step(traveller.drop, solids, time - traveller.left, pressure);
   clock.done(Stage::geometry);
   double dt = std::min(traveller.next, traveller.left);
-  while (dt > shortest && step.top_speed() * dt > first_guess * pressure.edge_min) dt *= 0.5;
+  while (dt > shortest && (dt > step.longest_step() || step.top_speed() * dt > first_guess * pressure.edge_min))
+    dt *= 0.5;
   while (!step.solve(dt) && dt > shortest) {
     dt *= 0.5;
     ++report.rejected;

@@ -6,6 +6,7 @@
 #include "meniscus/state/solid.h"
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace meniscus {
@@ -44,6 +45,9 @@ class PressureStep {
 
   /// The fastest deformation (cm/s) in the drop's velocities: a start for dt.
   double top_speed() const { return top_speed_; }
+  /// The longest dt (s) that keeps a drop in flight from gaining energy: one radian of its lowest mode.
+  /// Infinite on a solid, where the step damps.
+  double longest_step() const { return longest_step_; }
 
   /// Solves for a step of dt (s, > 0). Returns whether the step is short enough: no vertex moves more than
   /// half of edge_min on its own, nor deeper than a fifth of it into a solid. If not, try a shorter one.
@@ -60,7 +64,7 @@ class PressureStep {
   Drop& drop_;
   const std::vector<Solid>& solids_;
   PressureOptions options_;
-  double time_, dt_ = 0, top_speed_ = 0;
+  double time_, dt_ = 0, top_speed_ = 0, longest_step_ = std::numeric_limits<double>::infinity();
   PressureReport report_;
 };
 

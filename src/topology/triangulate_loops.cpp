@@ -15,42 +15,48 @@ namespace {
 using Point2 = Kernel::Point_2;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-constexpr std::size_t most_corners = 16;  // of a loop for which looking at all triangulations is the quicker way
+constexpr std::size_t most_corners = 64;  // of a loop for which all triangulations are looked at: n^3/6 triangles
 
-/// How near a triangle is to an equilateral one, times a constant; not positive if it turns right or not at all.
-double shape(const Point2& a, const Point2& b, const Point2& c) {
+/// The least height of a triangle; not positive if it turns right or not at all.
+double least_height(const Point2& a, const Point2& b, const Point2& c) {
   constexpr double clear = 1e-12;  // beyond this, rounding cannot have made the sign
   const auto u = b - a, v = c - b, w = a - c;
-  const double s = (u.x() * v.y() - u.y() * v.x()) / (u.squared_length() + v.squared_length() + w.squared_length());
-  if (std::abs(s) > clear) return s;
-  return CGAL::left_turn(a, b, c) ? std::max(s, std::numeric_limits<double>::min()) : -1;
+  const double area = u.x() * v.y() - u.y() * v.x();
+  const double longest = std::max({u.squared_length(), v.squared_length(), w.squared_length()});
+  const double height = area / std::sqrt(longest);
+  if (std::abs(area) > clear * longest) return height;
+  return CGAL::left_turn(a, b, c) ? std::max(height, std::numeric_limits<double>::min()) : -1;
 }
 
-/// Of all triangulations of a simple loop the one whose worst triangle is best, by dynamic programming:
-/// best[i][j] is that of the corners i to j. Triangles that all turn left cannot overlap.
+/// Of all triangulations of a simple loop the one whose thinnest triangle is thickest (rounding moves
+/// corners by an absolute amount), by dynamic programming:
+/// best(i, j) is that of the corners i to j. Triangles that all turn left cannot overlap.
 bool triangulate_best(const std::vector<Point2>& points, const std::vector<std::uint32_t>& loop, Triangles& triangles) {
   const std::size_t n = loop.size();
-  double best[most_corners][most_corners];
-  std::size_t apex[most_corners][most_corners];
-  for (std::size_t i = 0; i + 1 < n; ++i) best[i][i + 1] = std::numeric_limits<double>::infinity();
+  if (n < 3) return false;
+  std::vector<double> values(n * n);
+  std::vector<std::size_t> apexes(n * n);
+  const auto best = [&](std::size_t i, std::size_t j) -> double& { return values[i * n + j]; };
+  const auto apex = [&](std::size_t i, std::size_t j) -> std::size_t& { return apexes[i * n + j]; };
+  for (std::size_t i = 0; i + 1 < n; ++i) best(i, i + 1) = std::numeric_limits<double>::infinity();
   for (std::size_t gap = 2; gap < n; ++gap)
     for (std::size_t i = 0, j = gap; j < n; ++i, ++j) {
-      best[i][j] = -1;
-      apex[i][j] = i + 1;
+      best(i, j) = -1;
+      apex(i, j) = i + 1;
       for (std::size_t k = i + 1; k < j; ++k) {
-        const double sides = std::min(best[i][k], best[k][j]);
-        if (sides <= best[i][j]) continue;
-        const double worst = std::min(sides, shape(points[loop[i]], points[loop[k]], points[loop[j]]));
-        if (worst > best[i][j]) best[i][j] = worst, apex[i][j] = k;
+        const double sides = std::min(best(i, k), best(k, j));
+        if (sides <= best(i, j)) continue;
+        const double worst = std::min(sides, least_height(points[loop[i]], points[loop[k]], points[loop[j]]));
+        if (worst > best(i, j)) best(i, j) = worst, apex(i, j) = k;
       }
     }
-  if (n < 3 || !(best[0][n - 1] > 0)) return false;
+  if (!(best(0, n - 1) > 0)) return false;
   std::vector<std::pair<std::size_t, std::size_t>> open{{0, n - 1}};
   while (!open.empty()) {
     const auto [i, j] = open.back();
     open.pop_back();
     if (j - i < 2) continue;
-    const std::size_t k = apex[i][j];
+    const std::size_t k = apex(i, j);
     triangles.push_back({loop[i], loop[k], loop[j]});
     open.push_back({i, k});
     open.push_back({k, j});

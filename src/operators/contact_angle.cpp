@@ -38,10 +38,10 @@ Vector3d virtual_work_kick(const ContactLineVertex& line, double force, const Ve
   return ((mass * along + dt * c * force) / resistance - along) * line.outward;
 }
 
-/// The line turns by no more than this at a vertex, or by twice what a polygon of its number of vertices does.
+/// The line turns by no more than this at a vertex, or by three times what a polygon of its number of vertices does.
 double largest_turn(std::size_t num_line) {
   constexpr double pi = 3.14159265358979323846;
-  return std::max(50 * pi / 180, num_line > 0 ? 4 * pi / static_cast<double>(num_line) : pi);
+  return std::max(pi / 2, num_line > 0 ? 6 * pi / static_cast<double>(num_line) : pi);
 }
 
 /// Where the line turns too sharply a vertex goes half way to the middle of its neighbours, stuck or not: one that

@@ -207,6 +207,9 @@ int num_substeps(Drop& drop, const std::vector<Solid>& solids, double time, doub
   return static_cast<int>(std::ceil(std::min(substeps, static_cast<double>(most_substeps))));
 }
 
+/// The volume of a regular tetrahedron (cm^3): a piece with less has no room for edges in the band.
+double tetrahedron_volume(double edge) { return edge * edge * edge / std::sqrt(72.0); }
+
 /// A piece smaller than edges are long has no shape to change: of the violent motion of the neck that it was torn
 /// from it keeps the translation. Its few vertices would turn it over otherwise.
 void stiffen_speck(Drop& piece, const EdgeBand& band) {
@@ -273,7 +276,7 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
 
   if (remeshed.cuts > 0) {
     SplitReport split;
-    pieces = split_components(std::move(drop), split);
+    pieces = split_components(std::move(drop), split, tetrahedron_volume(options.band.edge_min));
     report.deleted += split.deleted + split.deleted_empty;
     for (Drop& piece : pieces) stiffen_speck(piece, options.band);
   } else {
@@ -311,27 +314,29 @@ StepReport& StepReport::operator+=(const StepReport& other) {
 
 std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                             const StepOptions& options, Remesher& remesher, StepReport& report) {
-  const int substeps = num_substeps(drop, solids, time, dt, options);
-  report.substeps = substeps;
-  const double inflow = drop.inflow();
-  drop.set_inflow(0);
-  std::vector<Drop> drops;
-  drops.push_back(std::move(drop));
-  for (int k = substeps - 1; k >= 0; --k) {
-    if (inflow > 0 && !drops.empty()) {
-      Drop& fed = fed_drop(drops, solids);
-      fed.set_target_volume(fed.target_volume() + inflow * (dt / substeps));
-    }
-    std::vector<Drop> next;
-    for (Drop& piece : drops)
-      for (Drop& part :
-           substep(std::move(piece), solids, time - k * (dt / substeps), dt / substeps, options, remesher, report))
-        next.push_back(std::move(part));
-    drops = std::move(next);
+  int left = num_substeps(drop, solids, time, dt, options);
+  report.substeps = std::max(report.substeps, left);
+  const double part = dt / left, inflow = drop.inflow();
+  std::vector<Drop> pieces;
+  pieces.push_back(std::move(drop));
+  while (left > 0 && pieces.size() == 1) {
+    --left;
+    pieces.front().set_target_volume(pieces.front().target_volume() + inflow * part);
+    pieces = substep(std::move(pieces.front()), solids, time - left * part, part, options, remesher, report);
   }
-  if (inflow > 0 && !drops.empty()) fed_drop(drops, solids).set_inflow(inflow);
-  for (const Drop& piece : drops) report.triangles += piece.mesh().number_of_faces();
-  return drops;
+  if (inflow > 0 && pieces.size() > 1) {
+    for (Drop& piece : pieces) piece.set_inflow(0);
+    fed_drop(pieces, solids).set_inflow(inflow);
+  }
+  if (left == 0 || pieces.empty()) {
+    for (const Drop& piece : pieces) report.triangles += piece.mesh().number_of_faces();
+    return pieces;
+  }
+  std::vector<Drop> all;  // a small piece needs shorter substeps than what it came from
+  for (Drop& piece : pieces)
+    for (Drop& part_of_it : step_drop(std::move(piece), solids, time, left * part, options, remesher, report))
+      all.push_back(std::move(part_of_it));
+  return all;
 }
 
 }  // namespace meniscus

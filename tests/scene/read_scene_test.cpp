@@ -269,7 +269,7 @@ TEST(SceneErrors, Syntax) {
 TEST(SceneErrors, ColumnsCountCharactersAndLinesMayEndInAnyWay) {
   expect_messages("{\"$schema\": \"\u00e9\u4e2d\U0001F4A7\", \"x\\\"y\\\\\": 1,\r\n\t\"drops\": 1}",
                   {"s.json:1:20 /x\"y\\: unknown key; the keys here are time_step, frames, steps_per_frame, gravity, "
-                   "liquid, model, "
+                   "sleep, liquid, model, "
                    "paper, volume_correction, mesh, topology, solver, solids, drops, sources",
                    "s.json:2:11 /drops: expected a list of objects, found a number"});
 }

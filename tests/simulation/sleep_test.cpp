@@ -56,12 +56,14 @@ TEST(Sleep, NothingSleepsUnlessAsked) {
 
 TEST(Sleep, AFallingDropWakesTheOneItMeetsAndNoOther) {
   Scene scene = two_at_rest();
+  scene.gravity = Vector3d(0, 0, -20);
   DropSpec& falling = scene.drops.emplace_back();
-  falling.center = Vector3d(0, 0, 0.5 * 981 * 1.6 * 1.6 + 0.2);  // lands at 1.6 s
+  falling.radius = 0.1;
+  falling.center = Vector3d(0, 0, 0.5 * 20 * 1.6 * 1.6 + 0.2);  // meets the first after about 1.6 s
   Simulation simulation(scene);
   EXPECT_EQ(run_until(simulation, 1.5).asleep, 2u);
   bool first_woke = false, second_woke = false;
-  while (simulation.time() < 1.65) {
+  while (simulation.time() < 1.61) {
     simulation.step();
     for (const Drop& drop : simulation.drops()) {
       if (drop.id() == 1) second_woke |= drop.rest_time() == 0;

@@ -65,10 +65,11 @@ void check_tap(double speed, double seconds) {
     added += report.volume_added;
     ASSERT_EQ(report.deleted, 0u);
     ASSERT_NEAR(simulation.target_volume(), added, 1e-12);
-    ASSERT_NEAR(simulation.volume(), added, 0.01 * added);
+    ASSERT_NEAR(simulation.volume(), added, 0.05 * added);  // remeshing changes it after the correction
     for (const Drop& drop : simulation.drops()) ASSERT_EQ(judge::defect(drop.mesh()), "") << simulation.time();
   }
-  EXPECT_NEAR(added, flow_of(scene.sources[0]) * simulation.time(), 1e-3);
+  EXPECT_NEAR(simulation.volume(), added, 0.005 * added);
+  EXPECT_NEAR(added, flow_of(scene.sources[0]) * simulation.time(), 1e-3);  // the rest waits for a new drop
   bool hangs = false;
   for (const Drop& drop : simulation.drops()) hangs = hangs || hangs_from(drop, 0);
   EXPECT_TRUE(hangs);

@@ -35,8 +35,8 @@ struct ContactAngleReport {
 /// measured_angle is the paper's. virtual_work measures theta by the derivative of the surface area
 /// and pushes each line vertex by c f/M against friction, implicitly, so that it is stable at any dt; a
 /// vertex between its two angles sticks to the solid. The drop's pressure counts in the balance. Where the line turns
-/// by more than 50 degrees (or twice what a regular polygon of its vertices would) the vertex goes half way to the
-/// middle of its neighbours.
+/// by more than 90 degrees (or three times what a regular polygon of its vertices would) the vertex goes half way to
+/// the middle of its neighbours.
 ///
 /// Reads positions, `geometry` (lumped areas only: that of the step's start will do), contact state and `time` (for
 /// moving solids); writes positions and velocities of line vertices, never along the solid's normal.

@@ -20,8 +20,8 @@ Simulation drop_on_a_post(double advancing, double degrees) {
   Scene scene = default_scene();
   scene.gravity.setZero();
   scene.time_step = 1.0 / 960;
-  scene.mesh.edge_min = 0.04;
-  scene.mesh.edge_max = 0.12;
+  scene.mesh.edge_min = 0.03;
+  scene.mesh.edge_max = 0.09;
   SolidSpec& post = scene.solids.emplace_back();
   post.name = "post";
   post.shape = SolidShape::cylinder;
@@ -64,7 +64,7 @@ TEST(SolidEdge, TheLineStaysOnTheRimWithinGibbsAngles) {
 TEST(SolidEdge, PastGibbsAngleTheLineRunsDownTheSide) {
   // 25 + 90 < 130.
   Simulation simulation = drop_on_a_post(25, 130);
-  while (simulation.time() < 0.3) {
+  while (simulation.time() < 0.2) {
     simulation.step();
     for (const Drop& drop : simulation.drops()) ASSERT_EQ(judge::defect(drop.mesh()), "") << simulation.time();
   }

@@ -76,7 +76,7 @@ void check_tap(double speed, double seconds) {
 }
 
 TEST(Sources, ADrippingTapIsSoundAndItsLedgerAddsUp) { check_tap(5, 0.1); }
-TEST(Sources, AJetIsSoundAndItsLedgerAddsUp) { check_tap(60, 0.04); }
+TEST(Sources, AJetIsSoundAndItsLedgerAddsUp) { check_tap(60, 0.02); }
 
 TEST(Sources, AJetFallsAsAStreamAndADropHangs) {
   // The tip of a jet is at v t + g t^2/2 or above (tension pulls it back); slow liquid hangs from the disc.

@@ -58,6 +58,15 @@ void RunStatistics::add_step(const Simulation& simulation, const StepReport& rep
     worst_error_ = std::max(worst_error_, std::abs(final_volume_ - initial_volume_) / initial_volume_);
 }
 
+double RunStatistics::wall_seconds() const { return seconds_now() - start_wall_; }
+
+double RunStatistics::used_cpu_seconds() const { return cpu_seconds() - start_cpu_; }
+
+void RunStatistics::set_used_seconds(double wall, double cpu) {
+  start_wall_ = seconds_now() - wall;
+  start_cpu_ = cpu_seconds() - cpu;
+}
+
 double RunStatistics::triangle_steps_per_second() const {
   const double stepping = std::accumulate(step_seconds_.begin(), step_seconds_.end(), 0.0);
   return stepping > 0 ? static_cast<double>(sum_.triangles) / stepping : 0;
@@ -72,8 +81,8 @@ Json RunStatistics::to_json() const {
     stages[stage_name(static_cast<Stage>(k))] = 1e3 * per(sum_.stage_seconds[k], steps);
   return {{"steps", steps},
           {"simulated_seconds", time_},
-          {"wall_seconds", seconds_now() - start_wall_},
-          {"cpu_seconds", cpu_seconds() - start_cpu_},
+          {"wall_seconds", wall_seconds()},
+          {"cpu_seconds", used_cpu_seconds()},
           {"threads", num_threads()},
           {"triangles", {{"mean", per(static_cast<double>(sum_.triangles), steps)}, {"max", max_triangles_}}},
           {"triangle_steps_per_second", triangle_steps_per_second()},

@@ -2,6 +2,7 @@
 #include "meniscus/frames/frame_writer.h"
 
 #include "meniscus/core/error.h"
+#include "meniscus/frames/checkpoint_archive.h"
 #include "meniscus/frames/measures.h"
 #include "meniscus/io/write_file_atomically.h"
 #include "meniscus/io/write_mesh.h"
@@ -9,8 +10,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
+#include <charconv>
+#include <limits>
 #include <system_error>
 
 namespace meniscus {
@@ -35,15 +36,25 @@ MeshFormat parse_frame_format(std::string_view name) {
   throw UsageError(fmt::format("\"{}\" is no format of frames; use ply, off or obj, joined by commas", name));
 }
 
-void remove_old_frames(const fs::path& directory) {
+/// The number in a name that is_frame_name knows.
+int frame_number(const std::string& name) {
+  int frame = std::numeric_limits<int>::max();  // stays if there are too many digits
+  std::from_chars(name.data() + name.find('_') + 1, name.data() + name.size(), frame);
+  return frame;
+}
+
+/// Removes the frames after `last`.
+void remove_frames(const fs::path& directory, int last) {
   std::vector<fs::path> old;
-  for (const auto& entry : fs::directory_iterator(directory))
-    if (is_frame_name(entry.path().filename().string()) && entry.symlink_status().type() == fs::file_type::regular)
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    const std::string name = entry.path().filename().string();
+    if (is_frame_name(name) && frame_number(name) > last && entry.symlink_status().type() == fs::file_type::regular)
       old.push_back(entry.path());
+  }
   for (const fs::path& path : old) fs::remove(path);
 }
 
-void prepare(const fs::path& directory, bool meshes) {
+void prepare(const fs::path& directory, bool meshes, int last_frame) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error || !fs::is_directory(directory)) {
@@ -51,9 +62,9 @@ void prepare(const fs::path& directory, bool meshes) {
     fail(directory, "cannot be made the directory of the frames", error);
   }
   try {
-    if (meshes) remove_old_frames(directory);
+    if (meshes) remove_frames(directory, last_frame);
   } catch (const fs::filesystem_error& e) {
-    fail(e.path1(), "an older run's frame cannot be removed", e.code());
+    fail(e.path1(), "an older frame cannot be removed", e.code());
   }
 }
 
@@ -86,8 +97,23 @@ bool is_frame_name(std::string_view name) {
 
 FrameWriter::FrameWriter(fs::path directory, FrameOptions options)
     : directory_(std::move(directory)), options_(std::move(options)) {
-  prepare(directory_, options_.meshes);
+  prepare(directory_, options_.meshes, -1);
   write_file_atomically(directory_ / measures_name, measures_header());
+  measures_bytes_ = measures_header().size();
+}
+
+FrameWriter::FrameWriter(fs::path directory, FrameOptions options, CheckpointReader& checkpoint)
+    : directory_(std::move(directory)), options_(std::move(options)) {
+  checkpoint("frames", *this);
+  prepare(directory_, options_.meshes, last_frame_);
+  const fs::path path = directory_ / measures_name;
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  if (!error && size < measures_bytes_)
+    throw FileError(fmt::format("{}: is shorter than when the checkpoint was taken: {} bytes of {}; start over",
+                                path.string(), size, measures_bytes_));
+  if (!error) fs::resize_file(path, measures_bytes_, error);
+  if (error) fail(path, "cannot be continued", error);
 }
 
 void FrameWriter::write(int frame, double time, const std::vector<Drop>& drops) {
@@ -100,21 +126,12 @@ void FrameWriter::write(int frame, double time, const std::vector<Drop>& drops) 
   for (const Drop& drop : drops) rows += measures_row(time, measure_drop(drop, options_.density));
   append_measures(rows);
   ++num_frames_;
+  last_frame_ = frame;
 }
 
-void FrameWriter::append_measures(const std::string& rows) const {
-  const fs::path path = directory_ / measures_name;
-  std::error_code error;
-  const auto size = fs::file_size(path, error);
-  if (error) fail(path, "cannot be written", error);
-  std::ofstream out(path, std::ios::binary | std::ios::app);
-  out.write(rows.data(), static_cast<std::streamsize>(rows.size()));
-  out.close();
-  if (out) return;
-  error = {errno, std::generic_category()};
-  std::error_code ignored;
-  fs::resize_file(path, size, ignored);  // no half lines
-  fail(path, "cannot be written", error);
+void FrameWriter::append_measures(const std::string& rows) {
+  append_to_file(directory_ / measures_name, rows);
+  measures_bytes_ += rows.size();
 }
 
 }  // namespace meniscus

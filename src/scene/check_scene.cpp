@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace meniscus::scene_detail {
 namespace {
@@ -91,11 +92,10 @@ class SceneCheck {
   }
 
   void check_solid_names() {
+    std::map<std::string, std::size_t> first;
     for (std::size_t i = 0; i < scene_.solids.size(); ++i) {
       const std::string& name = scene_.solids[i].name;
-      const auto first = std::find_if(scene_.solids.begin(), scene_.solids.end(),
-                                      [&](const SolidSpec& solid) { return solid.name == name; });
-      const auto index = static_cast<std::size_t>(first - scene_.solids.begin());
+      const std::size_t index = first.emplace(name, i).first->second;
       if (name.empty() || index == i) continue;
       report(child_pointer("/solids", i) + "/name", fmt::format("solid {} already has the name \"{}\"", index, name));
     }

@@ -206,6 +206,9 @@ StepOptions make_step_options(const Scene& scene) {
   options.band = scene.mesh;
   options.split = scene.topology.split;
   options.solver = scene.solver;
+#ifndef NDEBUG
+  options.verify = Verify::topology;
+#endif
   return options;
 }
 

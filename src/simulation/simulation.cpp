@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/simulation/simulation.h"
 
+#include "meniscus/core/error.h"
 #include "meniscus/operators/external_forces.h"
+#include "meniscus/state/judge.h"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
@@ -29,6 +32,7 @@ Simulation::Simulation(const Scene& scene, std::vector<Drop> drops)
 }
 
 StepReport Simulation::step() {
+  const double target_volume_before = target_volume();
   ++num_steps_;
   time_ = static_cast<double>(num_steps_) * time_step_;
   std::vector<std::vector<Drop>> pieces(drops_.size());
@@ -54,7 +58,30 @@ StepReport Simulation::step() {
       drops_.push_back(std::move(pieces[d][k]));
     }
   }
+  if (options_.verify == Verify::everything) verify(report, target_volume_before);
   return report;
+}
+
+void Simulation::check_restored() const {
+  for (const Drop& drop : drops_)
+    for (std::size_t v = 0; v < drop.num_rows(); ++v) {
+      const auto solid = static_cast<std::int64_t>(drop.contact_solid()[v]);
+      if (is_colliding(drop.contact()[v]) && (solid < 0 || solid >= static_cast<std::int64_t>(solids_.size())))
+        throw FileError(fmt::format("drop {}: vertex {} touches solid {}, but there are {}; the checkpoint is damaged",
+                                    drop.id(), v, solid, solids_.size()));
+    }
+}
+
+void Simulation::verify(const StepReport& report, double target_volume_before) const {
+  for (const Drop& drop : drops_) {
+    std::string defect = judge::defect(drop);
+    if (defect.empty() && !drop.velocities().allFinite()) defect = "a velocity is not finite";
+    if (!defect.empty())
+      throw SoundnessError(fmt::format("drop {} is unsound after step {}: {}", drop.id(), num_steps_, defect));
+  }
+  const double lost = target_volume_before - target_volume();
+  if (report.deleted == 0 && std::abs(lost) > 1e-9 * target_volume_before)
+    throw SoundnessError(fmt::format("step {} lost {} of {} cm^3", num_steps_, lost, target_volume_before));
 }
 
 double Simulation::volume() const {

@@ -8,6 +8,7 @@
 #include "meniscus/operators/mean_curvature_flow.h"
 #include "meniscus/operators/tangential_damping.h"
 #include "meniscus/operators/volume_correction.h"
+#include "meniscus/state/judge.h"
 #include "meniscus/topology/split.h"
 
 #include <fmt/format.h>
@@ -180,6 +181,13 @@ int num_substeps(Drop& drop, const std::vector<Solid>& solids, double time, doub
   return static_cast<int>(std::ceil(std::min(substeps, static_cast<double>(most_substeps))));
 }
 
+/// Throws SoundnessError for a drop that a change of topology left unsound.
+void verify_topology(const Drop& drop, const char* after) {
+  std::string defect = judge::connectivity_defect(drop);
+  if (defect.empty()) defect = judge::topology_defect(drop.mesh());
+  if (!defect.empty()) throw SoundnessError(fmt::format("drop {} is unsound after {}: {}", drop.id(), after, defect));
+}
+
 /// One substep: the paper's Figure 1.
 std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                           const StepOptions& options, Remesher& remesher, StepReport& report) {
@@ -227,11 +235,14 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
   report.edge_operations += remeshed.splits + remeshed.collapses + remeshed.flips + remeshed.lifts;
   report.cuts += remeshed.cuts;
   clock.done(Stage::remesh);
+  if (options.verify != Verify::nothing && remeshed.cuts == 0) verify_topology(drop, "remeshing");
 
   if (remeshed.cuts > 0) {
     SplitReport split;
     pieces = split_components(std::move(drop), split);
     report.deleted += split.deleted + split.deleted_empty;
+    if (options.verify != Verify::nothing)
+      for (const Drop& piece : pieces) verify_topology(piece, "a split");
   } else {
     pieces.push_back(std::move(drop));
   }

@@ -45,11 +45,24 @@ Drop::Drop(Mesh mesh) : mesh_(std::move(mesh)) {
         fmt::format("the mesh encloses {} cm^3: its faces point inward; reverse their orientation", target_volume_));
 }
 
+Drop Drop::restored(Mesh mesh, const std::vector<std::uint32_t>& ring_starts) {
+  check_closed_and_finite(mesh);
+  if (ring_starts.size() != mesh.num_vertices())
+    throw GeometryError(fmt::format("{} starts of rings for {} vertices", ring_starts.size(), mesh.num_vertices()));
+  Drop drop;
+  drop.mesh_ = std::move(mesh);
+  drop.bind();
+  drop.connectivity_.rebuild(drop.mesh_);
+  for (const auto v : drop.mesh_.vertices()) drop.connectivity_.start_ring_at(v, ring_starts[v]);
+  return drop;
+}
+
 Drop::Drop(const Drop& other)
     : mesh_(other.mesh_),
       connectivity_(other.connectivity_),
       target_volume_(other.target_volume_),
       topology_version_(other.topology_version_),
+      flow_version_(other.flow_version_),
       id_(other.id_) {
   bind();
 }

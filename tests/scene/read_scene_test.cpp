@@ -270,6 +270,27 @@ TEST(SceneErrors, Syntax) {
   EXPECT_NE(deep[0].find("nested deeper than 32 levels"), std::string::npos);
 }
 
+/// Each of these took minutes or more when places and duplicates were looked for anew for every word.
+TEST(SceneErrors, LargeScenesAreReadOrRefusedAtOnce) {
+  std::string drops, keys, solids;
+  for (int i = 0; i < 50000; ++i) {
+    drops += fmt::format(R"({}{{"shape":"sphere","radius":0.2,"center":[{},0,0]}})", i == 0 ? "" : ",", i);
+    solids += fmt::format(R"({}{{"shape":"sphere","name":"{}","keys":[{{"time":0}}]}})", i == 0 ? "" : ",", i);
+  }
+  for (int i = 0; i < 300000; ++i) keys += fmt::format(R"("{}":0,)", i);
+  EXPECT_EQ(parse("{\"drops\":[" + drops + "]}").drops.size(), 50000u);  // one line of 2.5 MB
+  EXPECT_EQ(parse(with_drop("\"solids\":[" + solids + "]")).solids.size(), 50000u);
+  const auto refused = messages("{" + keys + "\"drops\":[]}");
+  ASSERT_EQ(refused.size(), 1u);
+  EXPECT_NE(refused[0].find("an object of more than 1000 keys"), std::string::npos) << refused[0];
+  std::string many = "[0";
+  for (int i = 0; i < 100000; ++i) many += ",0";
+  EXPECT_NE(messages("{\"drops\":" + many + "]}")[0].find("a list of more than 100000 items"), std::string::npos);
+  std::string wrong = R"({"raduis":1})";
+  for (int i = 0; i < 50000; ++i) wrong += R"(,{"raduis":1})";
+  EXPECT_EQ(messages("{\"drops\":[" + wrong + "]}").size(), 101u) << "a hundred, and how many more";
+}
+
 TEST(SceneErrors, ColumnsCountCharactersAndLinesMayEndInAnyWay) {
   expect_messages("{\"$schema\": \"\u00e9\u4e2d\U0001F4A7\", \"x\\\"y\\\\\": 1,\r\n\t\"drops\": 1}",
                   {"s.json:1:20 /x\"y\\: unknown key; the keys here are time_step, frames, steps_per_frame, gravity, "

@@ -11,6 +11,8 @@
 
 namespace meniscus {
 
+class CheckpointReader;
+
 /// What a run writes beside its table of measures.
 struct FrameOptions {
   bool meshes = true;                                ///< false: measures.csv only
@@ -37,6 +39,9 @@ class FrameWriter {
   /// files that is_frame_name knows, and nothing else (nothing at all without options.meshes).
   /// Throws FileError if any of this fails.
   FrameWriter(std::filesystem::path directory, FrameOptions options = {});
+  /// Goes on where a checkpoint was taken: measures.csv is cut to what it was then, and later frames are
+  /// removed. Throws FileError, also if measures.csv is shorter than it was.
+  FrameWriter(std::filesystem::path directory, FrameOptions options, CheckpointReader& checkpoint);
 
   /// Writes all drops as one frame: PLY as to_mesh_data(drops) with a comment "time <s>" before the
   /// others; measures.csv gains a line a drop. No drops give an empty mesh. frame >= 0, time in s.
@@ -45,12 +50,21 @@ class FrameWriter {
 
   int num_frames() const { return num_frames_; }  ///< written so far
 
+  /// For checkpoints: see frames/checkpoint_archive.h.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("num_frames", self.num_frames_);
+    archive("last_frame", self.last_frame_);
+    archive("measures_bytes", self.measures_bytes_);
+  }
+
  private:
-  void append_measures(const std::string& rows) const;
+  void append_measures(const std::string& rows);
 
   std::filesystem::path directory_;
   FrameOptions options_;
-  int num_frames_ = 0;
+  int num_frames_ = 0, last_frame_ = -1;
+  std::uint64_t measures_bytes_ = 0;  // of measures.csv
 };
 
 }  // namespace meniscus

@@ -4,6 +4,7 @@
 #include "meniscus/scene/scene.h"
 #include "meniscus/simulation/step.h"
 
+#include <type_traits>
 #include <vector>
 
 namespace meniscus {
@@ -30,8 +31,8 @@ class Simulation {
   /// The scene's solids and parameters, with these drops instead of its own.
   Simulation(const Scene& scene, std::vector<Drop> drops);
 
-  /// Takes one step of scene.time_step. Throws NumericsError; the state is then that before the step
-  /// for some drops and after it for others, and fit for inspection only.
+  /// Takes one step of scene.time_step. Throws NumericsError (SoundnessError included); the state is then that before
+  /// the step for some drops and after it for others, and fit for inspection only.
   StepReport step();
 
   const std::vector<Drop>& drops() const { return drops_; }
@@ -42,8 +43,25 @@ class Simulation {
   double target_volume() const;                         ///< of all drops, cm^3
   /// For stage times: see StepOptions::clock.
   void set_clock(double (*clock)()) { options_.clock = clock; }
+  /// Whether an independent judge looks at the drops; a step then takes many times longer.
+  void set_verify(Verify verify) { options_.verify = verify; }
+
+  /// Everything that a step changes, for checkpoints (frames/checkpoint_archive.h): read into a simulation
+  /// of the same scene without drops, it goes on to the same bits. What is added to the class is added here.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("time", self.time_);
+    archive("num_steps", self.num_steps_);
+    archive("next_id", self.next_id_);
+    archive("drops", self.drops_);
+    if constexpr (!std::is_const_v<Self>) self.check_restored();
+  }
 
  private:
+  /// Throws FileError if a drop touches a solid that is not there.
+  void check_restored() const;
+  void verify(const StepReport& report, double target_volume_before) const;
+
   std::vector<Solid> solids_;
   std::vector<Drop> drops_;
   StepOptions options_;

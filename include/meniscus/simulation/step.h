@@ -25,6 +25,13 @@ enum class Stage {
 inline constexpr std::size_t num_stages = 8;
 const char* stage_name(Stage stage);  ///< "external_forces", ...
 
+/// What the independent judge (state/judge.h) looks at while a simulation runs.
+enum class Verify {
+  nothing,
+  topology,    ///< after each change of topology: closed, 2-manifold, outward, finite; what debug builds do in a Simulation
+  everything,  ///< and after each step: no drop meets itself, and the target volumes add up
+};
+
 /// Everything a step needs to know, the same for every drop.
 struct StepOptions {
   Level level = Level::calibrated;
@@ -36,6 +43,7 @@ struct StepOptions {
   bool remesh = true;
   bool split = true;
   SolverOptions solver;
+  Verify verify = Verify::nothing;
   /// Seconds on some clock, for StepReport::stage_seconds; the library itself never reads one.
   double (*clock)() = nullptr;
 };
@@ -53,6 +61,20 @@ struct StepReport {
   double worst_volume_error = 0;                   ///< largest |V - V_target| / V_target before topology changed
 
   StepReport& operator+=(const StepReport& other);
+
+  /// For checkpoints: see frames/checkpoint_archive.h.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("stage_seconds", self.stage_seconds);
+    archive("triangles", self.triangles);
+    archive("edge_operations", self.edge_operations);
+    archive("cuts", self.cuts);
+    archive("deleted", self.deleted);
+    archive("limited_volume", self.limited_volume);
+    archive("substeps", self.substeps);
+    archive("solver_iterations", self.solver_iterations);
+    archive("worst_volume_error", self.worst_volume_error);
+  }
 };
 
 /// One step of one drop, from time - dt to time (s): the paper's Figure 1 from external forces to
@@ -60,7 +82,8 @@ struct StepReport {
 /// was too small to go on.
 /// It is cut into equal substeps where one would be too long: see docs/MODELS.md.
 /// `remesher` keeps working arrays from call to call: one a thread.
-/// Throws NumericsError if a solve does not converge or a number is no longer finite.
+/// Throws NumericsError if a solve does not converge or a number is no longer finite, SoundnessError if
+/// options.verify finds a drop unsound.
 std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                             const StepOptions& options, Remesher& remesher, StepReport& report);
 

@@ -46,10 +46,14 @@ class Drop {
   /// Throws GeometryError if the mesh is empty, open, not triangular, not finite or bounds no
   /// positive volume.
   explicit Drop(Mesh mesh);
+  /// The drop that a checkpoint holds: the mesh as it is, removed elements included, with the maps that it
+  /// brings; rings start at `ring_starts` (one a vertex; removed ones do not count). Its volume may be anything.
+  /// Throws GeometryError if the mesh is empty, open, not triangular or not finite.
+  static Drop restored(Mesh mesh, const std::vector<std::uint32_t>& ring_starts);
   Drop(const Drop& other);
   Drop& operator=(const Drop& other);
-  Drop(Drop&&) = default;
-  Drop& operator=(Drop&&) = default;
+  Drop(Drop&&) noexcept = default;  // so that a growing std::vector moves drops, workspaces and all
+  Drop& operator=(Drop&&) noexcept = default;
 
   Mesh& mesh() { return mesh_; }
   const Mesh& mesh() const { return mesh_; }
@@ -100,7 +104,18 @@ class Drop {
   int id() const { return id_; }
   void set_id(int id) { id_ = id; }
 
+  /// Shows a checkpoint every number that is not in the mesh; what is added to the class is added here.
+  /// What lies in vertex maps goes along by itself; workspace() is empty after a resume.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("id", self.id_);
+    archive("target_volume", self.target_volume_);
+    archive("topology_version", self.topology_version_);
+    archive("flow_version", self.flow_version_);
+  }
+
  private:
+  Drop() = default;
   void bind();
 
   Mesh mesh_;

@@ -64,7 +64,7 @@ class SceneCheck {
   // Whether neither the value at the pointer, nor what holds it, nor what it holds has a problem.
   bool is_sound(const std::string& pointer) const {
     const auto is_inside = [](const std::string& inner, const std::string& outer) {
-      return inner == outer || inner.compare(0, outer.size() + 1, outer + "/") == 0;
+      return inner.compare(0, outer.size(), outer) == 0 && (inner.size() == outer.size() || inner[outer.size()] == '/');
     };
     return std::none_of(known_.begin(), known_.end(), [&](const std::string& at) {
       return is_inside(at, pointer) || (!at.empty() && is_inside(pointer, at));

@@ -14,7 +14,6 @@ namespace {
 // No length, time or speed of a drop is beyond these; products of such numbers stay finite.
 constexpr double largest_magnitude = 1e9;
 constexpr double least_positive = 1e-15;
-constexpr std::size_t most_problems = 1000;
 
 std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
@@ -56,7 +55,7 @@ class KeyReader {
 
  private:
   void report(const Place& place, const std::string& pointer, std::string message) {
-    if (problems_.size() >= most_problems) return;  // each is compared with each key later
+    if (problems_.size() >= most_problems) return;
     problems_.push_back({place, pointer, std::move(message)});
   }
 

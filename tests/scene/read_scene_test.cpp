@@ -275,7 +275,8 @@ TEST(SceneErrors, LargeScenesAreReadOrRefusedAtOnce) {
   std::string drops, keys, solids;
   for (int i = 0; i < 50000; ++i) {
     drops += fmt::format(R"({}{{"shape":"sphere","radius":0.2,"center":[{},0,0]}})", i == 0 ? "" : ",", i);
-    solids += fmt::format(R"({}{{"shape":"sphere","name":"{}","keys":[{{"time":0}}]}})", i == 0 ? "" : ",", i);
+    solids += fmt::format(R"({}{{"shape":"sphere","radius":1,"name":"{}","keys":[{{"time":0,"position":[0,0,0]}}]}})",
+                          i == 0 ? "" : ",", i);
   }
   for (int i = 0; i < 300000; ++i) keys += fmt::format(R"("{}":0,)", i);
   EXPECT_EQ(parse("{\"drops\":[" + drops + "]}").drops.size(), 50000u);  // one line of 2.5 MB

@@ -38,18 +38,16 @@ std::optional<BooleanResult> refuse_unsound(const MeshView& view, char letter) {
 bool is_volume_possible(const BooleanResult& r, BooleanOperation operation) {
   const bool unite = operation == BooleanOperation::unite, intersect = operation == BooleanOperation::intersect;
   const double low = unite ? std::max(r.volume_a, r.volume_b) : intersect ? 0 : r.volume_a - r.volume_b;
-  const double high =
-      unite ? r.volume_a + r.volume_b : intersect ? std::min(r.volume_a, r.volume_b) : r.volume_a;
+  const double high = unite ? r.volume_a + r.volume_b : intersect ? std::min(r.volume_a, r.volume_b) : r.volume_a;
   const double slack = 1e-12 * (r.volume_a + r.volume_b);
   return r.volume >= low - slack && r.volume <= high + slack;
 }
 
 /// Sets the volumes; false if the result's is impossible.
 bool measure(const MeshView& a, const MeshView& b, BooleanOperation operation, BooleanResult& result) {
-  const MeshData data = data_of(result);
   result.volume_a = volume_of(a);
   result.volume_b = volume_of(b);
-  result.volume = volume_of(view_of(data));
+  result.volume = volume_of(view_of(result));
   return is_volume_possible(result, operation);
 }
 
@@ -60,11 +58,11 @@ BooleanOutcome outcome_by_volume(const BooleanResult& r, BooleanOperation operat
                                                                    : r.volume_a - r.volume;
   const double slack = 1e-12 * (r.volume_a + r.volume_b);
   const bool all_a = common >= r.volume_a - slack, all_b = common >= r.volume_b - slack;
-  return all_a && all_b      ? BooleanOutcome::equal
-         : all_a             ? BooleanOutcome::a_inside_b
-         : all_b             ? BooleanOutcome::b_inside_a
-         : common <= slack   ? BooleanOutcome::touching
-                             : BooleanOutcome::crossing;
+  return all_a && all_b    ? BooleanOutcome::equal
+         : all_a           ? BooleanOutcome::a_inside_b
+         : all_b           ? BooleanOutcome::b_inside_a
+         : common <= slack ? BooleanOutcome::touching
+                           : BooleanOutcome::crossing;
 }
 
 /// In general position: cut, check at the seam, measure.
@@ -147,8 +145,6 @@ const char* name(BooleanRefusal refusal) {
       return "none";
     case BooleanRefusal::unsound_input:
       return "unsound_input";
-    case BooleanRefusal::pinched:
-      return "pinched";
     case BooleanRefusal::rounding:
       return "rounding";
   }

@@ -43,15 +43,15 @@ class FaceCutter {
   const Place keep_;
   CutFaces cut_;
 
-  Triangle face_{};                            // the face at work
-  int drop_ = 0;                               // the axis along which it is seen
-  bool mirrored_ = false;                      // seen from its back
-  std::vector<std::uint32_t> corner_, next_;   // of each node: its corner in the result; the next on the kept side
+  Triangle face_{};                           // the face at work
+  int drop_ = 0;                              // the axis along which it is seen
+  bool mirrored_ = false;                     // seen from its back
+  std::vector<std::uint32_t> corner_, next_;  // of each node: its corner in the result; the next on the kept side
   std::vector<bool> on_border_;
   std::vector<Kernel::Point_2> flat_;
-  std::vector<std::uint32_t> border_;          // nodes, counterclockwise
-  std::vector<Place> after_;                   // of each border node: where the border goes on from it
-  std::vector<std::uint32_t> local_, touched_; // crossing to node
+  std::vector<std::uint32_t> border_;           // nodes, counterclockwise
+  std::vector<Place> after_;                    // of each border node: where the border goes on from it
+  std::vector<std::uint32_t> local_, touched_;  // crossing to node
   Loops loops_;
   bool has_hole_ = false;
 };
@@ -94,9 +94,8 @@ bool FaceCutter::add_border() {
     border_.push_back(add_node(p, own_.points.col(p), true));
     after_.push_back(Place::unknown);
     const auto key = [](const Crossing& c) { return std::tie(c.edge_of_a, c.low, c.high); };
-    const auto begin = std::partition_point(seam_.crossings.begin(), seam_.crossings.end(), [&](const Crossing& c) {
-      return key(c) < std::tie(of_a_, low, high);
-    });
+    const auto begin = std::partition_point(seam_.crossings.begin(), seam_.crossings.end(),
+                                            [&](const Crossing& c) { return key(c) < std::tie(of_a_, low, high); });
     auto end = begin;
     while (end != seam_.crossings.end() && key(*end) == std::tie(of_a_, low, high)) ++end;
     for (std::ptrdiff_t i = 0; i < end - begin; ++i) {
@@ -117,8 +116,7 @@ bool FaceCutter::place_border() {
     if (place != Place::unknown) now = place;  // of the last one: the first corner's
   if (now == Place::unknown) {                 // no crossing: only closed curves inside
     Place& known = cut_.place[face_[0]];
-    if (known == Place::unknown)
-      known = is_inside(other_, point_at(own_, face_[0])) ? Place::inside : Place::outside;
+    if (known == Place::unknown) known = is_inside(other_, point_at(own_, face_[0])) ? Place::inside : Place::outside;
     now = known;
   }
   for (std::size_t k = 0; k < n; ++k) {
@@ -172,7 +170,8 @@ bool FaceCutter::trace_loops() {
 
 /// Whether a loop runs clockwise, by the turn at its least corner.
 bool FaceCutter::is_hole(const std::vector<std::uint32_t>& loop) const {
-  const auto least = std::min_element(loop.begin(), loop.end(), [&](std::uint32_t i, std::uint32_t j) { return flat_[i] < flat_[j]; });
+  const auto least =
+      std::min_element(loop.begin(), loop.end(), [&](std::uint32_t i, std::uint32_t j) { return flat_[i] < flat_[j]; });
   const std::size_t n = loop.size(), k = static_cast<std::size_t>(least - loop.begin());
   return CGAL::right_turn(flat_[loop[(k + n - 1) % n]], flat_[loop[k]], flat_[loop[(k + 1) % n]]);
 }

@@ -169,7 +169,8 @@ std::optional<BooleanResult> cut_locally(const MeshView& a, const MeshView& b, B
                                          std::vector<std::uint32_t>& near) {
   const bool unite = operation == BooleanOperation::unite, intersect = operation == BooleanOperation::intersect;
   Side side_a{a, b, true, intersect ? Place::inside : Place::outside, false, box_of(a), {}, {}};
-  Side side_b{b, a, false, unite ? Place::outside : Place::inside, operation == BooleanOperation::subtract, box_of(b), {}, {}};
+  Side side_b{b,         a,  false, unite ? Place::outside : Place::inside, operation == BooleanOperation::subtract,
+              box_of(b), {}, {}};
   const Eigen::AlignedBox3d common = side_a.box.intersection(side_b.box);
   if (!common.isEmpty()) side_a.common = faces_in(a, common), side_b.common = faces_in(b, common);
   const auto seam = find_seam(a, side_a.common, b, side_b.common);
@@ -201,7 +202,9 @@ bool is_sound_at_seam(const BooleanResult& result, const std::vector<std::uint32
     for (const auto v : result.triangles[f]) face.box.extend(Eigen::Vector3d::Map(result.points[v].data()));
     return face;
   };
-  const auto point = [&](std::uint32_t v) { return Point(result.points[v][0], result.points[v][1], result.points[v][2]); };
+  const auto point = [&](std::uint32_t v) {
+    return Point(result.points[v][0], result.points[v][1], result.points[v][2]);
+  };
   std::vector<FaceBox> made;
   for (auto f = static_cast<std::uint32_t>(result.whole_a + result.whole_b); f < result.triangles.size(); ++f) {
     const Triangle& t = result.triangles[f];

@@ -78,7 +78,9 @@ void keep_components(BooleanResult& result, const std::vector<std::uint32_t>& co
   }
 }
 
-Eigen::Vector3d at(const BooleanResult& result, std::uint32_t v) { return Eigen::Vector3d::Map(result.points[v].data()); }
+Eigen::Vector3d at(const BooleanResult& result, std::uint32_t v) {
+  return Eigen::Vector3d::Map(result.points[v].data());
+}
 
 }  // namespace
 
@@ -152,8 +154,7 @@ void drop_cavities(BooleanResult& result) {
   }
   if (all) return;
   keep_components(result, component, is_kept);
-  const MeshData data = data_of(result);
-  result.volume = volume_of(view_of(data));
+  result.volume = volume_of(view_of(result));
 }
 
 MeshData data_of(const BooleanResult& result) {

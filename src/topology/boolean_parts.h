@@ -42,6 +42,13 @@ bool is_inside(const MeshView& mesh, const Point& point);
 /// What a closed mesh encloses, cm^3.
 double volume_of(const MeshView& view);
 
+/// A result's points and triangles, not copied.
+inline MeshView view_of(const BooleanResult& result) {
+  return {
+      {result.points.empty() ? nullptr : result.points.front().data(), static_cast<Eigen::Index>(result.points.size())},
+      result.triangles};
+}
+
 /// The view's triangles, without removed ones, as a soup.
 MeshData soup_of(const MeshView& view);
 

@@ -189,9 +189,11 @@ bool sort_along_edges(const MeshView& a, const MeshView& b, Seam& seam) {
   };
   for (std::size_t i = 0, j; i < order.size(); i = j) {
     for (j = i + 1; j < order.size() && same_edge(crossings[i], crossings[j]);) ++j;
-    std::sort(order.begin() + static_cast<std::ptrdiff_t>(i), order.begin() + static_cast<std::ptrdiff_t>(j), is_before);
+    std::sort(order.begin() + static_cast<std::ptrdiff_t>(i), order.begin() + static_cast<std::ptrdiff_t>(j),
+              is_before);
     for (std::size_t k = i + 1; k < j; ++k)
-      if (!is_before(order[k - 1], order[k])) all_differ = false;
+      if (!is_before(order[k - 1], order[k]))
+        all_differ = false;
       else if (crossings[order[k]].t - crossings[order[k - 1]].t <= least_gap)
         place_exactly(a, b, crossings[order[k - 1]]), place_exactly(a, b, crossings[order[k]]);
   }

@@ -36,13 +36,15 @@ bool FaceGrid::try_cells(double cell_size) {
         for (int x = low.x(); x <= high.x(); ++x) visit(index(x, y, z));
   };
   std::size_t count = 0;
-  for (const auto& box : boxes_) count += static_cast<std::size_t>((cell(box.box.max()) - cell(box.box.min()) + 1).prod());
+  for (const auto& box : boxes_)
+    count += static_cast<std::size_t>((cell(box.box.max()) - cell(box.box.min()) + 1).prod());
   if (count > most_per_box * boxes_.size() && first_.size() > 2) return false;
   for (const auto& box : boxes_) for_each_cell(box, [&](std::size_t c) { ++first_[c + 1]; });
   for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
   entries_.resize(first_.back());
   std::vector<std::uint32_t> at(first_.begin(), first_.end() - 1);
-  for (std::uint32_t k = 0; k < boxes_.size(); ++k) for_each_cell(boxes_[k], [&](std::size_t c) { entries_[at[c]++] = k; });
+  for (std::uint32_t k = 0; k < boxes_.size(); ++k)
+    for_each_cell(boxes_[k], [&](std::size_t c) { entries_[at[c]++] = k; });
   return true;
 }
 

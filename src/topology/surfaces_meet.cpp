@@ -11,9 +11,8 @@ bool surfaces_meet(const MeshView& a, const MeshView& b) {
   const std::vector<FaceBox> in_a = faces_in(a, common), in_b = faces_in(b, common);
   const FaceGrid grid(in_b);
   for (const auto& s : in_a) {
-    const bool none = grid.for_each_meeting(s.box, [&](const FaceBox& t) {
-      return !CGAL::do_intersect(triangle_of(a, s.face), triangle_of(b, t.face));
-    });
+    const bool none = grid.for_each_meeting(
+        s.box, [&](const FaceBox& t) { return !CGAL::do_intersect(triangle_of(a, s.face), triangle_of(b, t.face)); });
     if (!none) return true;
   }
   return false;

@@ -50,9 +50,11 @@ bool cut_ears(const std::vector<Point2>& points, std::vector<std::uint32_t> loop
 }
 
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
-using FaceBase = CGAL::Triangulation_face_base_with_info_2<int, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
-                                                            CGAL::No_constraint_intersection_tag>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<int, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using Delaunay =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+                                               CGAL::No_constraint_intersection_tag>;
 
 /// Numbers the faces by how many constraints lie between them and the outside.
 void mark_depths(Delaunay& delaunay) {
@@ -93,8 +95,7 @@ bool triangulate_by_delaunay(const std::vector<Point2>& points, const Loops& loo
   if (constraints != corners) return false;  // a side passes through a corner
   mark_depths(delaunay);
   for (const auto f : delaunay.finite_face_handles())
-    if (f->info() % 2 == 1)
-      triangles.push_back({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
+    if (f->info() % 2 == 1) triangles.push_back({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
   return true;
 }
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// Union, intersection and difference of two closed meshes. docs/BOOLEAN.md has the table of outcomes.
+/// Union, intersection and difference of two closed meshes.
 namespace meniscus {
 
 using Triangle = std::array<std::uint32_t, 3>;  ///< indices of points, counterclockwise seen from outside
@@ -43,11 +43,10 @@ enum class BooleanOutcome {
 enum class BooleanRefusal {
   none,
   unsound_input,  ///< not finite, open, inside out, meets itself, ...: the message and faces tell
-  pinched,        ///< the exact result is not a 2-manifold (solids that touch along an edge, say)
-  rounding,       ///< no ladder step gave a result that is sound in doubles
+  rounding,       ///< no ladder step gave a sound result: rounding, or the exact one is not a 2-manifold
 };
 
-/// "crossing", "pinched" and so on, as reports spell it.
+/// "crossing", "rounding" and so on, as reports spell it.
 const char* name(BooleanOutcome outcome);
 const char* name(BooleanRefusal refusal);
 

@@ -34,10 +34,7 @@ void add_bench(CLI::App& app, Run& run) {
 }
 
 void add_later_verbs(CLI::App& app, Run& run) {
-  const VerbText verbs[] = {{"merge",
-                             "Boolean union of closed meshes (comes in a later version).",
-                             {"meniscus merge a.ply b.ply -o c.ply", ""}},
-                            {"view",
+  const VerbText verbs[] = {{"view",
                              "One page that plays frames offline (comes in a later version).",
                              {"meniscus view out --html out.html", ""}}};
   for (const VerbText& text : verbs) {

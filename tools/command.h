@@ -63,6 +63,7 @@ double parse_number(const std::string& option, const std::string& text);
 void add_check(CLI::App& app, Run& run);
 void add_convert(CLI::App& app, Run& run);
 void add_remesh(CLI::App& app, Run& run);
+void add_merge(CLI::App& app, Run& run);
 void add_split(CLI::App& app, Run& run);
 void add_flow(CLI::App& app, Run& run);
 void add_evolve(CLI::App& app, Run& run);

@@ -97,6 +97,7 @@ int run_command(int argc, char** argv) {
   add_check(app, run);
   add_convert(app, run);
   add_remesh(app, run);
+  add_merge(app, run);
   add_split(app, run);
   add_flow(app, run);
   add_evolve(app, run);

@@ -80,7 +80,7 @@ Json Report::to_json() const { return body("ok"); }
 
 Json Report::to_json_refused(const GeometryError& error) const {
   Json report{{"status", "refused"},
-              {"reason", first_defect_.empty() ? std::string("operation_refused") : first_defect_},
+              {"reason", first_defect_.empty() ? reason_ : first_defect_},
               {"message", error.what()},
               {"faces", error.faces()},
               {"vertices", error.vertices()}};

@@ -37,6 +37,8 @@ class Report {
   void add_output(const std::string& file, const MeshData& data);
   /// One of the verb's own counts.
   void add(const std::string& name, Json value) { counts_[name] = std::move(value); }
+  /// Why it will be refused, if the inputs are sound.
+  void set_reason(const char* reason) { reason_ = reason; }
   /// Runs the verb's own work, on the clock.
   template <class Work>
   auto timed(Work work) {
@@ -63,7 +65,7 @@ class Report {
   const CommonOptions& common_;
   Json inputs_ = Json::array(), outputs_ = Json::array(), counts_ = Json::object();
   double seconds_ = 0;
-  std::string first_defect_;
+  std::string first_defect_, reason_ = "operation_refused";
 };
 
 /// Runs a verb's work and writes its report: of what it did, or, if it throws GeometryError, of why

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 
 namespace meniscus {
 namespace {
@@ -21,10 +21,16 @@ BooleanResult refuse(BooleanRefusal reason, std::string message) {
   return result;
 }
 
+/// Coordinates beyond this overflow when they are multiplied.
+constexpr double largest_coordinate = 1e90;
+
 /// A refusal if an input is not sound; else an empty optional.
 std::optional<BooleanResult> refuse_unsound(const MeshView& view, char letter) {
   const MeshData soup = soup_of(view);
   const Inspection inspection = inspect(soup);
+  if (inspection.sound && view.points.cwiseAbs().maxCoeff() > largest_coordinate)
+    return refuse(BooleanRefusal::unsound_input,
+                  fmt::format("mesh {} has coordinates beyond {:.0e}; scale it down", letter, largest_coordinate));
   if (inspection.sound) return std::nullopt;
   const Defect& defect = inspection.defects.front();
   BooleanResult result =
@@ -43,14 +49,6 @@ bool is_volume_possible(const BooleanResult& r, BooleanOperation operation) {
   return r.volume >= low - slack && r.volume <= high + slack;
 }
 
-/// Sets the volumes; false if the result's is impossible.
-bool measure(const MeshView& a, const MeshView& b, BooleanOperation operation, BooleanResult& result) {
-  result.volume_a = volume_of(a);
-  result.volume_b = volume_of(b);
-  result.volume = volume_of(view_of(result));
-  return is_volume_possible(result, operation);
-}
-
 /// What the volumes tell of a result that has none of its own, to rounding.
 BooleanOutcome outcome_by_volume(const BooleanResult& r, BooleanOperation operation) {
   const double common = operation == BooleanOperation::unite       ? r.volume_a + r.volume_b - r.volume
@@ -65,20 +63,38 @@ BooleanOutcome outcome_by_volume(const BooleanResult& r, BooleanOperation operat
                            : BooleanOutcome::crossing;
 }
 
+/// One Boolean, and how much of it is taken on trust.
+struct Task {
+  const MeshView& a;
+  const MeshView& b;
+  BooleanOperation operation;
+  bool check_whole;  ///< inspect the whole result, not only the seam
+};
+
+bool is_sound(const BooleanResult& result) { return result.triangles.empty() || inspect(data_of(result)).sound; }
+
+/// Sets the volumes; false if the result's is impossible.
+bool measure(const Task& task, BooleanResult& result) {
+  result.volume_a = volume_of(task.a);
+  result.volume_b = volume_of(task.b);
+  result.volume = volume_of(view_of(result));
+  return is_volume_possible(result, task.operation);
+}
+
 /// In general position: cut, check at the seam, measure.
-std::optional<BooleanResult> try_local(const MeshView& a, const MeshView& b, BooleanOperation operation) {
+std::optional<BooleanResult> try_local(const Task& task) {
   std::vector<std::uint32_t> near;
-  auto result = cut_locally(a, b, operation, near);
-  if (!result || !is_sound_at_seam(*result, near) || !measure(a, b, operation, *result)) return std::nullopt;
+  auto result = cut_locally(task.a, task.b, task.operation, near);
+  if (!result || !is_sound_at_seam(*result, near) || !measure(task, *result)) return std::nullopt;
+  if (task.check_whole && !is_sound(*result)) return std::nullopt;
   return result;
 }
 
 /// Exact, of the whole meshes, rounded at the end: checked whole.
-std::optional<BooleanResult> try_corefined(const MeshView& a, const MeshView& b, BooleanOperation operation) {
-  auto result = corefine(a, b, operation);
-  if (!result || !measure(a, b, operation, *result)) return std::nullopt;
-  if (!result->triangles.empty() && !inspect(data_of(*result)).sound) return std::nullopt;
-  result->outcome = outcome_by_volume(*result, operation);
+std::optional<BooleanResult> try_corefined(const Task& task) {
+  auto result = corefine(task.a, task.b, task.operation);
+  if (!result || !measure(task, *result) || !is_sound(*result)) return std::nullopt;
+  result->outcome = outcome_by_volume(*result, task.operation);
   return result;
 }
 
@@ -88,18 +104,19 @@ const Eigen::Vector3d shift_directions[] = {Eigen::Vector3d(0.6017, 0.3719, 0.70
                                             Eigen::Vector3d(0.2711, -0.6553, 0.7051)};
 
 /// B moved by ever more, but little, until A and B are in general position.
-std::optional<BooleanResult> try_shifted(const MeshView& a, const MeshView& b, BooleanOperation operation,
-                                         double max_shift, int& retries) {
+std::optional<BooleanResult> try_shifted(const Task& task, double max_shift, int& retries) {
   const auto extent = [](const MeshView& view) { return box_of(view).sizes().maxCoeff(); };
-  const double size = std::max(extent(a), extent(b));
-  Eigen::Matrix3Xd moved = b.points;
+  const double size = std::max(extent(task.a), extent(task.b));
+  Eigen::Matrix3Xd moved;
   for (double share = 1e-13; share <= max_shift * (1 + 1e-9); share *= 10)
     for (const auto& direction : shift_directions) {
       const Eigen::Vector3d shift = share * size * direction;
-      moved = b.points.colwise() + shift;
-      if (auto result = try_local(a, {{moved.data(), moved.cols()}, b.triangles}, operation)) {
+      moved = task.b.points.colwise() + shift;
+      const MeshView moved_b{{moved.data(), moved.cols()}, task.b.triangles};
+      if (auto result = try_local({task.a, moved_b, task.operation, task.check_whole})) {
         result->step = BooleanStep::shifted;
         result->shift = shift;
+        if (result->outcome == BooleanOutcome::disjoint) result->outcome = BooleanOutcome::touching;
         return result;
       }
       ++retries;
@@ -107,12 +124,26 @@ std::optional<BooleanResult> try_shifted(const MeshView& a, const MeshView& b, B
   return std::nullopt;
 }
 
-BooleanResult by_ladder(const MeshView& a, const MeshView& b, BooleanOperation operation, double max_shift) {
-  if (auto local = try_local(a, b, operation)) return *std::move(local);
+/// No step gave a sound result: says whether the exact one is a 2-manifold, and where the surfaces meet.
+BooleanResult refuse_result(const Task& task) {
+  const bool is_manifold = corefine(task.a, task.b, task.operation).has_value();
+  BooleanResult result =
+      is_manifold ? refuse(BooleanRefusal::rounding, "the result is not sound once its points are rounded to doubles")
+                  : refuse(BooleanRefusal::pinched,
+                           "the surfaces touch or cross where the result would not be a 2-manifold; move one a little");
+  find_meeting_faces(task.a, task.b, 20, result.faces_a, result.faces_b);
+  return result;
+}
+
+BooleanResult by_ladder(const Task& task, double max_shift) {
+  if (auto local = try_local(task)) return *std::move(local);
   int retries = 1;
-  auto result = try_corefined(a, b, operation);
-  if (!result) result = (++retries, try_shifted(a, b, operation, max_shift, retries));
-  if (!result) return refuse(BooleanRefusal::rounding, "no step gave a sound result");
+  auto result = try_corefined(task);
+  if (!result) {
+    ++retries;
+    result = try_shifted(task, max_shift, retries);
+  }
+  if (!result) result = refuse_result(task);
   result->retries = retries;
   return *std::move(result);
 }
@@ -145,6 +176,8 @@ const char* name(BooleanRefusal refusal) {
       return "none";
     case BooleanRefusal::unsound_input:
       return "unsound_input";
+    case BooleanRefusal::pinched:
+      return "pinched";
     case BooleanRefusal::rounding:
       return "rounding";
   }
@@ -170,7 +203,7 @@ BooleanResult boolean(const MeshView& a, const MeshView& b, BooleanOperation ope
     if (auto refusal = refuse_unsound(a, 'A')) return *refusal;
     if (auto refusal = refuse_unsound(b, 'B')) return *refusal;
   }
-  BooleanResult result = by_ladder(a, b, operation, options.max_shift);
+  BooleanResult result = by_ladder({a, b, operation, !options.inputs_are_sound}, options.max_shift);
   if (!options.keep_cavities && result.ok()) drop_cavities(result);
   return result;
 }

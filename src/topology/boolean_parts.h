@@ -52,8 +52,12 @@ inline MeshView view_of(const BooleanResult& result) {
 /// The view's triangles, without removed ones, as a soup.
 MeshData soup_of(const MeshView& view);
 
-/// A result's points and triangles.
+/// A result's points and triangles, copied or not.
 MeshData data_of(const BooleanResult& result);
+
+/// Faces that meet one of the other mesh, at most `limit` pairs.
+void find_meeting_faces(const MeshView& a, const MeshView& b, std::size_t limit, std::vector<std::uint32_t>& faces_a,
+                        std::vector<std::uint32_t>& faces_b);
 
 /// The place of p, a point of triangle t but for rounding.
 SurfacePoint surface_point(const MeshView& view, const Triangle& t, const Eigen::Vector3d& p);

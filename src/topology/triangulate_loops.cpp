@@ -5,47 +5,62 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace meniscus {
 namespace {
 
 using Point2 = Kernel::Point_2;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-constexpr std::size_t most_ears = 24;  // corners of a loop for which looking at all ears is the quicker way
+constexpr std::size_t most_corners = 64;  // of a loop for which all triangulations are looked at: n^3/6 triangles
 
-/// How near a triangle is to an equilateral one, times a constant.
-double shape(const Point2& a, const Point2& b, const Point2& c) {
+/// The least height of a triangle; not positive if it turns right or not at all.
+double least_height(const Point2& a, const Point2& b, const Point2& c) {
+  constexpr double clear = 1e-12;  // beyond this, rounding cannot have made the sign
   const auto u = b - a, v = c - b, w = a - c;
-  return (u.x() * v.y() - u.y() * v.x()) / (u.squared_length() + v.squared_length() + w.squared_length());
+  const double area = u.x() * v.y() - u.y() * v.x();
+  const double longest = std::max({u.squared_length(), v.squared_length(), w.squared_length()});
+  const double height = area / std::sqrt(longest);
+  if (std::abs(area) > clear * longest) return height;
+  return CGAL::left_turn(a, b, c) ? std::max(height, std::numeric_limits<double>::min()) : -1;
 }
 
-bool is_in_triangle(const Point2& p, const Point2& a, const Point2& b, const Point2& c) {
-  return !CGAL::right_turn(a, b, p) && !CGAL::right_turn(b, c, p) && !CGAL::right_turn(c, a, p);
-}
-
-bool cut_ears(const std::vector<Point2>& points, std::vector<std::uint32_t> loop, Triangles& triangles) {
-  const auto is_ear = [&](std::size_t k, std::size_t before, std::size_t after) {
-    const Point2 &a = points[loop[before]], &b = points[loop[k]], &c = points[loop[after]];
-    if (!CGAL::left_turn(a, b, c)) return false;
-    for (std::size_t j = 0; j < loop.size(); ++j)
-      if (j != k && j != before && j != after && is_in_triangle(points[loop[j]], a, b, c)) return false;
-    return true;
-  };
-  while (loop.size() > 3) {
-    std::size_t best = loop.size();
-    double best_shape = -1;
-    const std::size_t n = loop.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t before = (k + n - 1) % n, after = (k + 1) % n;
-      const double s = shape(points[loop[before]], points[loop[k]], points[loop[after]]);
-      if (s > best_shape && is_ear(k, before, after)) best = k, best_shape = s;
+/// Of all triangulations of a simple loop the one whose thinnest triangle is thickest (rounding moves
+/// corners by an absolute amount), by dynamic programming:
+/// best(i, j) is that of the corners i to j. Triangles that all turn left cannot overlap.
+bool triangulate_best(const std::vector<Point2>& points, const std::vector<std::uint32_t>& loop, Triangles& triangles) {
+  const std::size_t n = loop.size();
+  if (n < 3) return false;
+  std::vector<double> values(n * n);
+  std::vector<std::size_t> apexes(n * n);
+  const auto best = [&](std::size_t i, std::size_t j) -> double& { return values[i * n + j]; };
+  const auto apex = [&](std::size_t i, std::size_t j) -> std::size_t& { return apexes[i * n + j]; };
+  for (std::size_t i = 0; i + 1 < n; ++i) best(i, i + 1) = std::numeric_limits<double>::infinity();
+  for (std::size_t gap = 2; gap < n; ++gap)
+    for (std::size_t i = 0, j = gap; j < n; ++i, ++j) {
+      best(i, j) = -1;
+      apex(i, j) = i + 1;
+      for (std::size_t k = i + 1; k < j; ++k) {
+        const double sides = std::min(best(i, k), best(k, j));
+        if (sides <= best(i, j)) continue;
+        const double worst = std::min(sides, least_height(points[loop[i]], points[loop[k]], points[loop[j]]));
+        if (worst > best(i, j)) best(i, j) = worst, apex(i, j) = k;
+      }
     }
-    if (best == n) return false;
-    triangles.push_back({loop[(best + n - 1) % n], loop[best], loop[(best + 1) % n]});
-    loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(best));
+  if (!(best(0, n - 1) > 0)) return false;
+  std::vector<std::pair<std::size_t, std::size_t>> open{{0, n - 1}};
+  while (!open.empty()) {
+    const auto [i, j] = open.back();
+    open.pop_back();
+    if (j - i < 2) continue;
+    const std::size_t k = apex(i, j);
+    triangles.push_back({loop[i], loop[k], loop[j]});
+    open.push_back({i, k});
+    open.push_back({k, j});
   }
-  if (loop.size() < 3 || !CGAL::left_turn(points[loop[0]], points[loop[1]], points[loop[2]])) return false;
-  triangles.push_back({loop[0], loop[1], loop[2]});
   return true;
 }
 
@@ -102,7 +117,7 @@ bool triangulate_by_delaunay(const std::vector<Point2>& points, const Loops& loo
 }  // namespace
 
 bool triangulate_loops(const std::vector<Point2>& points, const Loops& loops, Triangles& triangles) {
-  if (loops.size() == 1 && loops[0].size() <= most_ears) return cut_ears(points, loops[0], triangles);
+  if (loops.size() == 1 && loops[0].size() <= most_corners) return triangulate_best(points, loops[0], triangles);
   return triangulate_by_delaunay(points, loops, triangles);
 }
 

@@ -83,8 +83,7 @@ TEST_F(CommandLine, NumbersMustBeFiniteAndPositive) {
 TEST_F(CommandLine, WhatComesLaterSaysSo) {
   write("a.ply", sphere());
   for (const char* arguments :
-       {"merge a.ply b.ply -o c.ply", "view out --html x.html", "split a.ply -o 'b_{}.ply' --plane 0,0,1,0",
-        "split a.ply -o 'b_{}.ply' --cutter a.ply", "evolve a.ply -o out --resume"}) {
+       {"view out --html x.html", "evolve a.ply -o out --resume"}) {
     const Outcome outcome = tool(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;
     EXPECT_TRUE(has(outcome.err, "later version")) << arguments << "\n" << outcome.err;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// Union, intersection and difference of two closed meshes.
+/// Union, intersection and difference of two closed meshes. docs/BOOLEAN.md has the table of outcomes.
 namespace meniscus {
 
 using Triangle = std::array<std::uint32_t, 3>;  ///< indices of points, counterclockwise seen from outside
@@ -43,10 +43,11 @@ enum class BooleanOutcome {
 enum class BooleanRefusal {
   none,
   unsound_input,  ///< not finite, open, inside out, meets itself, ...: the message and faces tell
-  rounding,       ///< no ladder step gave a sound result: rounding, or the exact one is not a 2-manifold
+  pinched,        ///< the exact result is not a 2-manifold (solids that touch along an edge, say)
+  rounding,       ///< no ladder step gave a result that is sound in doubles
 };
 
-/// "crossing", "rounding" and so on, as reports spell it.
+/// "crossing", "pinched" and so on, as reports spell it.
 const char* name(BooleanOutcome outcome);
 const char* name(BooleanRefusal refusal);
 

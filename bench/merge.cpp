@@ -65,7 +65,7 @@ void time_batch(int count) {
   for (int k = 0; k < count; ++k)
     drops.push_back(boolean_cases::rotated(boolean_cases::ball(5), numbers.between(0, 6), numbers.vector(1)));
   for (auto& drop : drops) drop = boolean_cases::moved(drop, numbers.vector(half));
-  MergeReport report;
+  MeshMergeReport report;
   std::optional<MeshData> all;
   const double ours =
       median_time(3, [&] { all = merge_meshes(drops, BooleanOperation::unite, BooleanOptions{}, report); });

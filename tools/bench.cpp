@@ -6,7 +6,7 @@
 namespace meniscus::tools {
 namespace {
 
-struct LaterOptions {
+struct BenchOptions {
   CommonOptions common;
   std::vector<std::string> arguments;
 };
@@ -14,7 +14,7 @@ struct LaterOptions {
 }  // namespace
 
 void add_bench(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<LaterOptions>();
+  const auto options = std::make_shared<BenchOptions>();
   CLI::App* verb = add_verb(
       app,
       {"bench", "Where the project's benchmarks are.", {"meniscus bench", "build/release/bench/bench_<name> --help"}},
@@ -31,20 +31,6 @@ void add_bench(CLI::App& app, Run& run) {
       return done;
     };
   });
-}
-
-void add_later_verbs(CLI::App& app, Run& run) {
-  const VerbText verbs[] = {{"view",
-                             "One page that plays frames offline (comes in a later version).",
-                             {"meniscus view out --html out.html", ""}}};
-  for (const VerbText& text : verbs) {
-    const auto options = std::make_shared<LaterOptions>();
-    CLI::App* verb = add_verb(app, text, options->common);
-    verb->prefix_command();  // takes whatever follows
-    verb->callback([name = text.name, options, &run] {
-      run = [name, options]() -> int { throw UsageError(name + ": comes in a later version"); };
-    });
-  }
 }
 
 }  // namespace meniscus::tools

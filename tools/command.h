@@ -67,8 +67,8 @@ void add_merge(CLI::App& app, Run& run);
 void add_split(CLI::App& app, Run& run);
 void add_flow(CLI::App& app, Run& run);
 void add_evolve(CLI::App& app, Run& run);
+void add_view(CLI::App& app, Run& run);
 void add_schema(CLI::App& app, Run& run);
 void add_bench(CLI::App& app, Run& run);
-void add_later_verbs(CLI::App& app, Run& run);
 
 }  // namespace meniscus::tools

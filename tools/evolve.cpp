@@ -20,7 +20,8 @@ struct EvolveOptions {
   std::string output, frames_as = "ply", gravity;
   std::optional<double> time_step;
   std::optional<int> frames, steps;
-  bool dry_run = false, no_frames = false, resume = false;
+  int checkpoint_every = 10;
+  bool dry_run = false, no_frames = false, resume = false, overwrite = false, verify = false;
 };
 
 bool is_scene(const std::string& file) { return std::filesystem::path(file).extension() == ".json"; }
@@ -102,16 +103,47 @@ void check_inputs_survive(const EvolveOptions& options, const Scene& scene) {
   }
 }
 
+/// What a run starts from: the scene and drops of the command line, or a checkpoint.
+void read_start(const EvolveOptions& options, RunPlan& plan) {
+  plan.inputs = options.inputs;
+  if (options.resume) plan.resume = find_resume_point(options.output, options.common.console());
+  if (options.inputs.empty() && !plan.resume)
+    throw UsageError(options.resume
+                         ? fmt::format("--resume: {} holds no checkpoint; name the scene to start with", options.output)
+                         : "SCENE is required: a scene (.json), or meshes to evolve in the default one");
+  if (!plan.resume) {
+    plan.scene = read_input_scene(options);
+    plan.drops = read_piped_drops(options, plan.scene);
+    return;
+  }
+  plan.scene = plan.resume->scene;
+  if (!options.inputs.empty()) {
+    plan.scene = read_input_scene(options);
+    if (std::find(options.inputs.begin(), options.inputs.end(), "-") != options.inputs.end()) plan.scene.drops.clear();
+    check_same_scene(*plan.resume, plan.scene);
+  } else {
+    if (!all_settings(options).empty() && !options.frames)
+      throw UsageError("--resume: name the scene to change it; without one, the run goes on as it was");
+    plan.inputs = plan.resume->inputs;
+    if (options.frames) plan.scene.frames = *options.frames;
+  }
+}
+
 int evolve(const EvolveOptions& options) {
-  if (options.resume) throw UsageError("--resume: comes in a later version; start from the last frame's .ply instead");
   RunPlan plan;
   plan.output = options.output;
+  plan.overwrite = options.overwrite;
+  if (options.resume && !options.dry_run && std::filesystem::exists(options.output)) plan.lock.emplace(options.output);
+  read_start(options, plan);
+  if (options.resume && !plan.resume && is_run_complete(options.output)) {
+    options.common.console().say(fmt::format("{}: the run is complete; there is nothing to resume", options.output));
+    return done;
+  }
   plan.frame_options.meshes = !options.no_frames;
   plan.frame_options.formats = parse_frame_formats(options.frames_as);
   plan.dry_run = options.dry_run;
-  plan.inputs = options.inputs;
-  plan.scene = read_input_scene(options);
-  plan.drops = read_piped_drops(options, plan.scene);
+  plan.verify = options.verify;
+  plan.checkpoint_every = options.checkpoint_every;
   plan.frame_options.density = plan.scene.liquid.density;
   plan.steps = options.steps ? *options.steps : std::int64_t{plan.scene.frames} * plan.scene.steps_per_frame;
   check_inputs_survive(options, plan.scene);
@@ -120,8 +152,8 @@ int evolve(const EvolveOptions& options) {
 
 void add_options(CLI::App& verb, EvolveOptions& options) {
   verb.add_option("SCENE", options.inputs,
-                  "A scene (.json), or meshes (.ply, .off, ...; - for stdin) to evolve in the default one")
-      ->required();
+                  "A scene (.json), or meshes (.ply, .off, ...; - for stdin) to evolve in the default one; may be "
+                  "left out with --resume");
   add_output(verb, options.output, "Directory of frames, measures.csv and run.json; made if need be")->type_name("DIR");
   CLI::Option* frames = verb.add_option("--frames", options.frames, "Frames after the first (default: the scene's)")
                             ->type_name("N")
@@ -138,10 +170,22 @@ void add_options(CLI::App& verb, EvolveOptions& options) {
   verb.add_option("--gravity", options.gravity, "cm/s^2 (default: the scene's, 0,0,-981)")->type_name("x,y,z");
   verb.add_flag("--dry-run", options.dry_run, "Read and build everything, say what would run, write nothing");
   verb.add_flag("--no-frames", options.no_frames, "Write measures.csv and run.json only");
-  verb.add_option("--frames-as", options.frames_as, "Formats of frames, joined by commas: ply, off, obj; PLY always is")
+  verb.add_option("--frames-as", options.frames_as,
+                  "Formats of frames, joined by commas: ply, off, obj, vtp, glb, usda; PLY always is")
       ->capture_default_str()
       ->type_name("FORMATS");
-  verb.add_flag("--resume", options.resume, "Comes in a later version");
+  verb.add_option("--checkpoint-every", options.checkpoint_every,
+                  "Frames from one checkpoint to the next; 0: only if the run is interrupted")
+      ->capture_default_str()
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000000));
+  CLI::Option* resume = verb.add_flag(
+      "--resume", options.resume,
+      "Go on from the last checkpoint in DIR to the same bytes as without the interruption; start if there is none");
+  verb.add_flag("--verify", options.verify,
+                "Have an independent judge look at each drop after each step (slow); what it finds ends the run with "
+                "exit code 5 and is written to DIR/violation");
+  verb.add_flag("--overwrite", options.overwrite, "Start over although DIR holds an interrupted run")->excludes(resume);
 }
 
 }  // namespace

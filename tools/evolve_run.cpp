@@ -3,7 +3,10 @@
 
 #include "meniscus/core/error.h"
 #include "meniscus/core/version.h"
+#include "meniscus/frames/checkpoint_archive.h"
+#include "meniscus/frames/checkpoint_file.h"
 #include "meniscus/io/write_file_atomically.h"
+#include "meniscus/io/write_mesh.h"
 #include "meniscus/scene/write_scene.h"
 #include "run_statistics.h"
 
@@ -19,7 +22,14 @@ extern "C" void catch_signal(int number) {
   std::signal(number, SIG_DFL);  // a second one ends the program
 }
 
+CheckpointReader reader_of(const ResumePoint& point) { return {*point.state, point.file.string()}; }
+
 Simulation make_simulation(RunPlan& plan) {
+  if (plan.resume) {
+    Simulation simulation(plan.scene, {});
+    reader_of (*plan.resume)("simulation", simulation);
+    return simulation;
+  }
   if (plan.drops) return {plan.scene, std::move(*plan.drops)};
   return Simulation(plan.scene);
 }
@@ -41,6 +51,7 @@ class Evolution {
         simulation_(make_simulation(plan_)),
         statistics_(simulation_) {
     simulation_.set_clock(&seconds_now);
+    if (plan_.verify) simulation_.set_verify(Verify::everything);
   }
 
   /// What --dry-run says, and -v.
@@ -52,19 +63,21 @@ class Evolution {
   }
 
   int run() {
-    FrameWriter writer(plan_.output, plan_.frame_options);
-    writer.write(0, simulation_.time(), simulation_.drops());
-    frames_ = 1;
+    FrameWriter writer = first_frames();
+    frames_ = writer.num_frames();
     try {
       step_all(writer);
+      if (caught_signal != 0) save(writer);
     } catch (const Error& error) {
       progress_.clear();
-      finish("failed", error.what());
+      finish_failed(error);
       throw;
     }
     progress_.clear();
+    writer.finish();
     const bool whole = caught_signal == 0;
     finish(whole ? "ok" : "interrupted", "");
+    if (whole) remove_checkpoints(plan_.output);
     console_.say(summary(whole));
     return whole ? done : interrupted;
   }
@@ -87,19 +100,97 @@ class Evolution {
     return (plan_.steps + plan_.scene.steps_per_frame - 1) / plan_.scene.steps_per_frame;
   }
 
+  /// The frames that are there when stepping begins: the first, or those up to the checkpoint.
+  FrameWriter first_frames() {
+    if (!plan_.lock) plan_.lock.emplace(plan_.output);
+    if (!plan_.resume && !plan_.overwrite && !find_checkpoints(plan_.output).empty())
+      throw UsageError(
+          fmt::format("{}: holds a run that was interrupted; go on with --resume, or start over with "
+                      "--overwrite",
+                      plan_.output.string()));
+    remove_temporary_files(plan_.output);
+    if (plan_.resume) {
+      CheckpointReader reader = reader_of(*plan_.resume);
+      reader("statistics", statistics_);
+      FrameWriter writer(plan_.output, plan_.frame_options, reader);
+      plan_.resume.reset();  // the state is large
+      return writer;
+    }
+    remove_checkpoints(plan_.output);
+    std::error_code ignored;
+    std::filesystem::remove(plan_.output / "run.json", ignored);  // an older run's
+    FrameWriter writer(plan_.output, plan_.frame_options);
+    writer.write(0, simulation_.time(), simulation_.drops());
+    if (plan_.checkpoint_every > 0 && plan_.steps > 0) save(writer);
+    return writer;
+  }
+
+  nlohmann::json state(const FrameWriter& writer) const {
+    CheckpointWriter archive;
+    archive("simulation", simulation_);
+    archive("statistics", statistics_);
+    archive("frames", writer);
+    nlohmann::json state = archive.state();
+    state["run"] = describe_run(plan_.scene, plan_.inputs);
+    return state;
+  }
+
+  void save(const FrameWriter& writer) const {
+    write_checkpoint(plan_.output, static_cast<std::int64_t>(simulation_.num_steps()), state(writer));
+  }
+
+  /// One step. With --verify, the state before a step that failed is kept: DIR/violation goes on from there.
+  StepReport step(const FrameWriter& writer) {
+    if (!plan_.verify) return simulation_.step();
+    const nlohmann::json before = state(writer);
+    try {
+      return simulation_.step();
+    } catch (const NumericsError& error) {
+      write_violation(before);
+      throw SoundnessError(fmt::format("{}\n  to see it again: meniscus evolve --resume --verify -o {}", error.what(),
+                                       violation().string()));
+    }
+  }
+
+  std::filesystem::path violation() const { return plan_.output / "violation"; }
+
+  /// A directory to resume from, and the drops as they were.
+  void write_violation(nlohmann::json before) const {
+    const FrameWriter none(violation(), {false, {}, plan_.frame_options.density});
+    remove_checkpoints(violation());
+    CheckpointWriter frames;
+    frames("frames", none);
+    before["frames"] = frames.state()["frames"];
+    Simulation simulation(plan_.scene, {});
+    CheckpointReader(before, "the state before the step")("simulation", simulation);
+    write_checkpoint(violation(), static_cast<std::int64_t>(simulation.num_steps()), before);
+    write_mesh(violation() / "before.ply", to_mesh_data(simulation.drops()));
+    write_file_atomically(violation() / "scene.json", resolved_scene(plan_.scene) + '\n');
+  }
+
   void step_all(FrameWriter& writer) {
     const std::int64_t each = plan_.scene.steps_per_frame;
-    for (std::int64_t k = 1; k <= plan_.steps && caught_signal == 0; ++k) {
+    for (auto k = static_cast<std::int64_t>(simulation_.num_steps()) + 1; k <= plan_.steps && caught_signal == 0; ++k) {
       const double start = seconds_now();
-      const StepReport report = simulation_.step();
+      const StepReport report = step(writer);
       statistics_.add_step(simulation_, report, seconds_now() - start);
       if (k % each == 0 || k == plan_.steps) {
-        writer.write(static_cast<int>((k + each - 1) / each), simulation_.time(), simulation_.drops());
+        const std::int64_t frame = (k + each - 1) / each;
+        writer.write(static_cast<int>(frame), simulation_.time(), simulation_.drops());
         ++frames_;
+        if (plan_.checkpoint_every > 0 && frame % plan_.checkpoint_every == 0 && k < plan_.steps) save(writer);
       }
       progress_.show(fmt::format("step {}/{}, {:.4f} s, {} drops, {} triangles, {:.3g} million triangle-steps/s", k,
                                  plan_.steps, simulation_.time(), simulation_.drops().size(), report.triangles,
                                  1e-6 * statistics_.triangle_steps_per_second()));
+    }
+  }
+
+  /// Tells of a failure where it can: on a full disk the error itself is worth more than that run.json failed too.
+  void finish_failed(const Error& error) const {
+    try {
+      finish("failed", error.what());
+    } catch (const FileError&) {
     }
   }
 

@@ -76,7 +76,7 @@ void parse(CLI::App& app, int argc, char** argv) {
     throw UsageError(extras.empty() ? fmt::format("{}: {}; see meniscus {} --help", first, error.what(), first)
                                     : extras);
   }
-  if (first != "merge" && first != "view")
+  if (first != "merge")
     if (const std::string extras = describe_extras(app); !extras.empty()) throw UsageError(extras);
 }
 
@@ -101,9 +101,9 @@ int run_command(int argc, char** argv) {
   add_split(app, run);
   add_flow(app, run);
   add_evolve(app, run);
+  add_view(app, run);
   add_schema(app, run);
   add_bench(app, run);
-  add_later_verbs(app, run);
   app.footer(
       "meniscus VERB --help tells more of a verb. Exit codes: 0 done; 1 check found defects; 2 usage or scene\n"
       "error; 3 a file cannot be read or written; 4 the geometry was refused; 5 the numerics failed;\n"

@@ -42,7 +42,7 @@ void save_failing(const std::string& directory, const std::pair<MeshData, MeshDa
   console.say(directory + ": the pair that was refused, as a.ply and b.ply");
 }
 
-void add_counts(Report& report, const MergeReport& merge) {
+void add_counts(Report& report, const MeshMergeReport& merge) {
   report.add("outcome", name(merge.outcome));
   report.add("step", name(merge.step));
   report.add("joins", merge.joins);
@@ -51,7 +51,7 @@ void add_counts(Report& report, const MergeReport& merge) {
   report.add("shift", merge.shift);
 }
 
-[[noreturn]] void refuse(const MergeVerbOptions& options, const MergeReport& merge, Report& report) {
+[[noreturn]] void refuse(const MergeVerbOptions& options, const MeshMergeReport& merge, Report& report) {
   report.set_reason(name(merge.refusal));
   if (!options.save_failing.empty() && merge.failed)
     save_failing(options.save_failing, *merge.failed, options.common.console());
@@ -77,7 +77,7 @@ int merge(const MergeVerbOptions& options) {
     BooleanOptions boolean;
     boolean.max_shift = options.max_shift;
     boolean.keep_cavities = !options.fill_cavities;
-    MergeReport merged;
+    MeshMergeReport merged;
     auto result = report.timed([&] {
       for (std::size_t k = 0; k < meshes.size(); ++k) naming(options.inputs[k], [&] { prepare(meshes[k], options); });
       return merge_meshes(meshes, operations.at(options.operation), boolean, merged);

@@ -54,26 +54,37 @@ void RunStatistics::add_step(const Simulation& simulation, const StepReport& rep
   final_volume_ = simulation.volume();
   time_ = simulation.time();
   num_drops_ = simulation.drops().size();
-  if (initial_volume_ > 0)
-    worst_error_ = std::max(worst_error_, std::abs(final_volume_ - initial_volume_) / initial_volume_);
+  const double expected = initial_volume_ + sum_.volume_added;
+  if (expected > 0) worst_error_ = std::max(worst_error_, std::abs(final_volume_ - expected) / expected);
+}
+
+double RunStatistics::wall_seconds() const { return seconds_now() - start_wall_; }
+
+double RunStatistics::used_cpu_seconds() const { return cpu_seconds() - start_cpu_; }
+
+void RunStatistics::set_used_seconds(double wall, double cpu) {
+  start_wall_ = seconds_now() - wall;
+  start_cpu_ = cpu_seconds() - cpu;
 }
 
 double RunStatistics::triangle_steps_per_second() const {
   const double stepping = std::accumulate(step_seconds_.begin(), step_seconds_.end(), 0.0);
-  return stepping > 0 ? static_cast<double>(sum_.triangles) / stepping : 0;
+  return stepping > 0 ? static_cast<double>(sum_.triangles - sum_.asleep_triangles) / stepping : 0;
 }
 
 Json RunStatistics::to_json() const {
   std::vector<double> sorted = step_seconds_;
   std::sort(sorted.begin(), sorted.end());
   const std::size_t steps = sorted.size();
-  Json stages = Json::object();
+  Json stages = Json::object(), skipped = Json::object();
+  for (std::size_t k = 0; k < num_stages; ++k)
+    if (sum_.skipped[k] > 0) skipped[stage_name(static_cast<Stage>(k))] = sum_.skipped[k];
   for (std::size_t k = 0; k < num_stages; ++k)
     stages[stage_name(static_cast<Stage>(k))] = 1e3 * per(sum_.stage_seconds[k], steps);
   return {{"steps", steps},
           {"simulated_seconds", time_},
-          {"wall_seconds", seconds_now() - start_wall_},
-          {"cpu_seconds", cpu_seconds() - start_cpu_},
+          {"wall_seconds", wall_seconds()},
+          {"cpu_seconds", used_cpu_seconds()},
           {"threads", num_threads()},
           {"triangles", {{"mean", per(static_cast<double>(sum_.triangles), steps)}, {"max", max_triangles_}}},
           {"triangle_steps_per_second", triangle_steps_per_second()},
@@ -82,19 +93,25 @@ Json RunStatistics::to_json() const {
             {"p99", 1e3 * quantile(sorted, 0.99)},
             {"max", 1e3 * quantile(sorted, 1)}}},
           {"stage_ms", std::move(stages)},
+          {"stage_skipped", std::move(skipped)},
           {"counts",
-           {{"merges", 0},
+           {{"merges", sum_.merges},
+            {"folds_mended", sum_.folds},
+            {"vertices_taken_back", sum_.taken_back},
             {"splits", sum_.cuts},
             {"deleted", sum_.deleted},
-            {"retries", 0},
-            {"refused", 0},
+            {"retries", sum_.retries},
+            {"refused", sum_.refused},
             {"edge_operations", sum_.edge_operations},
+            {"asleep_drop_steps", sum_.asleep},
             {"limited_volume_corrections", sum_.limited_volume}}},
           {"volume",
            {{"initial", initial_volume_},
-            {"added", 0.0},
+            {"added", sum_.volume_added},
             {"final", final_volume_},
-            {"worst_relative_error", worst_error_}}},
+            {"worst_relative_error", worst_error_},
+            {"merge_overlap", sum_.overlap},
+            {"air_filled", sum_.air}}},
           {"drops", num_drops_}};
 }
 

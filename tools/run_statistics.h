@@ -5,6 +5,7 @@
 #include "report.h"
 
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace meniscus::tools {
@@ -20,10 +21,31 @@ class RunStatistics {
   /// The report of `evolve` up to the last step that was added, without scene and frames.
   Json to_json() const;
 
+  /// For checkpoints: see frames/checkpoint_archive.h. Seconds go on from those of the earlier run.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    double wall = self.wall_seconds(), cpu = self.used_cpu_seconds();
+    archive("wall_seconds", wall);
+    archive("cpu_seconds", cpu);
+    archive("step_seconds", self.step_seconds_);
+    archive("sum", self.sum_);
+    archive("max_triangles", self.max_triangles_);
+    archive("initial_volume", self.initial_volume_);
+    archive("final_volume", self.final_volume_);
+    archive("time", self.time_);
+    archive("worst_error", self.worst_error_);
+    archive("num_drops", self.num_drops_);
+    if constexpr (!std::is_const_v<Self>) self.set_used_seconds(wall, cpu);
+  }
+
   std::size_t num_steps() const { return step_seconds_.size(); }
   double triangle_steps_per_second() const;
 
  private:
+  double wall_seconds() const;
+  double used_cpu_seconds() const;
+  void set_used_seconds(double wall, double cpu);
+
   std::vector<double> step_seconds_;
   StepReport sum_;
   std::size_t max_triangles_ = 0;

@@ -60,7 +60,7 @@ MeshData cutter_of(const MeshData& data, const SplitOptions& options, Report& re
 /// The components inside and outside the cutter, those inside first.
 std::vector<MeshData> cut(const MeshData& data, const SplitOptions& options, Report& report) {
   const MeshData cutter = cutter_of(data, options, report);
-  MergeReport merged;
+  MeshMergeReport merged;
   const auto parts = report.timed([&] { return divide(data, cutter, {}, merged); });
   report.add("retries", merged.retries);
   report.add("shift", merged.shift);

@@ -2,15 +2,18 @@
 #include "meniscus/frames/frame_writer.h"
 
 #include "meniscus/core/error.h"
+#include "meniscus/frames/checkpoint_archive.h"
+#include "meniscus/frames/frame_time.h"
 #include "meniscus/frames/measures.h"
+#include "meniscus/frames/write_sequence.h"
 #include "meniscus/io/write_file_atomically.h"
-#include "meniscus/io/write_mesh.h"
+#include "vtp.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
+#include <charconv>
+#include <limits>
 #include <system_error>
 
 namespace meniscus {
@@ -19,31 +22,35 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* measures_name = "measures.csv";
-constexpr MeshFormat frame_formats[] = {MeshFormat::ply, MeshFormat::off, MeshFormat::obj};
-constexpr const char* later_formats[] = {"vtp", "glb", "usda"};
+constexpr const char* collection_name = "frames.pvd";
+constexpr const char* sequence_name = "frames.usda";
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what, const std::error_code& error) {
   throw FileError(fmt::format("{}: {} ({}); check the directory, its permissions and the space left", path.string(),
                               what, error.message()));
 }
 
-MeshFormat parse_frame_format(std::string_view name) {
-  for (const MeshFormat format : frame_formats)
-    if (name == format_name(format)) return format;
-  if (std::find(std::begin(later_formats), std::end(later_formats), name) != std::end(later_formats))
-    throw UsageError(fmt::format("frames as {}: not available in this version; use ply, off or obj", name));
-  throw UsageError(fmt::format("\"{}\" is no format of frames; use ply, off or obj, joined by commas", name));
+bool is_of_all_frames(const std::string& name) { return name == collection_name || name == sequence_name; }
+
+/// The number in a name that is_frame_name knows.
+int frame_number(const std::string& name) {
+  int frame = std::numeric_limits<int>::max();  // stays if there are too many digits
+  std::from_chars(name.data() + name.find('_') + 1, name.data() + name.size(), frame);
+  return frame;
 }
 
-void remove_old_frames(const fs::path& directory) {
+/// Removes the frames after `last`.
+void remove_frames(const fs::path& directory, int last) {
   std::vector<fs::path> old;
-  for (const auto& entry : fs::directory_iterator(directory))
-    if (is_frame_name(entry.path().filename().string()) && entry.symlink_status().type() == fs::file_type::regular)
-      old.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_later = is_frame_name(name) ? frame_number(name) > last : last < 0 && is_of_all_frames(name);
+    if (is_later && entry.symlink_status().type() == fs::file_type::regular) old.push_back(entry.path());
+  }
   for (const fs::path& path : old) fs::remove(path);
 }
 
-void prepare(const fs::path& directory, bool meshes) {
+void prepare(const fs::path& directory, bool meshes, int last_frame) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error || !fs::is_directory(directory)) {
@@ -51,70 +58,75 @@ void prepare(const fs::path& directory, bool meshes) {
     fail(directory, "cannot be made the directory of the frames", error);
   }
   try {
-    if (meshes) remove_old_frames(directory);
+    if (meshes) remove_frames(directory, last_frame);
   } catch (const fs::filesystem_error& e) {
-    fail(e.path1(), "an older run's frame cannot be removed", e.code());
+    fail(e.path1(), "an older frame cannot be removed", e.code());
   }
 }
 
 }  // namespace
 
-std::vector<MeshFormat> parse_frame_formats(std::string_view list) {
-  std::vector<MeshFormat> formats{MeshFormat::ply};
-  for (std::size_t start = 0; start <= list.size();) {
-    const std::size_t end = std::min(list.find(',', start), list.size());
-    const MeshFormat format = parse_frame_format(list.substr(start, end - start));
-    if (std::find(formats.begin(), formats.end(), format) == formats.end()) formats.push_back(format);
-    start = end + 1;
-  }
-  return formats;
-}
-
-std::string frame_name(int frame, MeshFormat format) {
-  return fmt::format("frame_{:04}.{}", frame, format_name(format));
-}
-
-bool is_frame_name(std::string_view name) {
-  constexpr std::string_view start = "frame_";
-  if (name.substr(0, start.size()) != start) return false;
-  name.remove_prefix(start.size());
-  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
-  if (digits < 4 || (digits > 4 && name.front() == '0') || digits == name.size() || name[digits] != '.') return false;
-  return std::any_of(std::begin(frame_formats), std::end(frame_formats),
-                     [&](MeshFormat format) { return name.substr(digits + 1) == format_name(format); });
-}
-
 FrameWriter::FrameWriter(fs::path directory, FrameOptions options)
     : directory_(std::move(directory)), options_(std::move(options)) {
-  prepare(directory_, options_.meshes);
+  prepare(directory_, options_.meshes, -1);
   write_file_atomically(directory_ / measures_name, measures_header());
+  measures_bytes_ = measures_header().size();
+}
+
+FrameWriter::FrameWriter(fs::path directory, FrameOptions options, CheckpointReader& checkpoint)
+    : directory_(std::move(directory)), options_(std::move(options)) {
+  checkpoint("frames", *this);
+  prepare(directory_, options_.meshes, last_frame_);
+  const fs::path path = directory_ / measures_name;
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  if (!error && size < measures_bytes_)
+    throw FileError(fmt::format("{}: is shorter than when the checkpoint was taken: {} bytes of {}; start over",
+                                path.string(), size, measures_bytes_));
+  if (!error) fs::resize_file(path, measures_bytes_, error);
+  if (error) fail(path, "cannot be continued", error);
+  if (options_.meshes && !vtp_frames_.empty()) write_collection();
 }
 
 void FrameWriter::write(int frame, double time, const std::vector<Drop>& drops) {
-  if (options_.meshes) {
-    MeshData data = to_mesh_data(drops);
-    data.comments.insert(data.comments.begin(), fmt::format("time {:.17g}", time));
-    for (const MeshFormat format : options_.formats) write_mesh(directory_ / frame_name(frame, format), data);
-  }
+  if (options_.meshes) write_meshes(frame, time, drops);
   std::string rows;
   for (const Drop& drop : drops) rows += measures_row(time, measure_drop(drop, options_.density));
   append_measures(rows);
   ++num_frames_;
+  last_frame_ = frame;
 }
 
-void FrameWriter::append_measures(const std::string& rows) const {
-  const fs::path path = directory_ / measures_name;
-  std::error_code error;
-  const auto size = fs::file_size(path, error);
-  if (error) fail(path, "cannot be written", error);
-  std::ofstream out(path, std::ios::binary | std::ios::app);
-  out.write(rows.data(), static_cast<std::streamsize>(rows.size()));
-  out.close();
-  if (out) return;
-  error = {errno, std::generic_category()};
-  std::error_code ignored;
-  fs::resize_file(path, size, ignored);  // no half lines
-  fail(path, "cannot be written", error);
+void FrameWriter::append_measures(const std::string& rows) {
+  append_to_file(directory_ / measures_name, rows);
+  measures_bytes_ += rows.size();
+}
+
+void FrameWriter::write_meshes(int frame, double time, const std::vector<Drop>& drops) {
+  MeshData data = to_mesh_data(drops);
+  data.comments.insert(data.comments.begin(), fmt::format("time {:.17g}", time));
+  for (const FrameFormat format : options_.formats) {
+    if (format == FrameFormat::usda) continue;  // finish() writes all of them
+    const std::string name = frame_name(frame, format);
+    write_frame(directory_ / name, format, data, time);
+    if (format != FrameFormat::vtp) continue;
+    vtp_times_.push_back(time);
+    vtp_frames_.push_back(frame);
+    write_collection();
+  }
+}
+
+void FrameWriter::finish() const {
+  const auto& formats = options_.formats;
+  if (options_.meshes && std::find(formats.begin(), formats.end(), FrameFormat::usda) != formats.end())
+    write_sequence(directory_ / sequence_name, FrameFormat::usda, find_frames(directory_));
+}
+
+void FrameWriter::write_collection() const {
+  std::vector<std::pair<double, std::string>> files;
+  for (std::size_t k = 0; k < vtp_frames_.size(); ++k)
+    files.emplace_back(vtp_times_[k], frame_name(vtp_frames_[k], FrameFormat::vtp));
+  write_file_atomically(directory_ / collection_name, pvd_text(files));
 }
 
 }  // namespace meniscus

@@ -2,6 +2,7 @@
 #include "meniscus/frames/measures.h"
 
 #include "meniscus/state/contact_line.h"
+#include "meniscus/state/ledger.h"
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -22,13 +23,6 @@ template <class Visit>
 void for_each_face(const Drop& drop, Visit visit) {
   for (const auto& [a, b, c] : drop.connectivity().triangles())
     if (a != Connectivity::removed) visit(a, b, c);
-}
-
-/// Where positions are measured from, so that a drop far from the origin loses no digits.
-Vector3d reference_point(const Drop& drop) {
-  for (const auto& [a, b, c] : drop.connectivity().triangles())
-    if (a != Connectivity::removed) return drop.positions().col(a);
-  return Vector3d::Zero();
 }
 
 Vector3d area_vector(const ConstColumns& x, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -71,33 +65,6 @@ bool is_wetted(const Drop& drop, const Vector3d& area, std::uint32_t a, std::uin
 }
 
 }  // namespace
-
-Vector3d volume_centroid(const Drop& drop) {
-  const ConstColumns x = drop.positions();
-  const Vector3d origin = reference_point(drop);
-  Vector3d moment = Vector3d::Zero();
-  double volume = 0;
-  for_each_face(drop, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const Vector3d p = x.col(a) - origin, q = x.col(b) - origin, r = x.col(c) - origin;
-    const double tetrahedron = p.dot(q.cross(r)) / 6;
-    volume += tetrahedron;
-    moment += tetrahedron / 4 * (p + q + r);
-  });
-  if (volume == 0) return Vector3d::Zero();
-  return origin + moment / volume;
-}
-
-Vector3d surface_momentum(const Drop& drop, double density, const Vector3d& c) {
-  const ConstColumns x = drop.positions(), u = drop.velocities();
-  Vector3d sum = Vector3d::Zero();
-  for_each_face(drop, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-    const Vector3d area = area_vector(x, i, j, k);
-    const double flux_i = u.col(i).dot(area), flux_j = u.col(j).dot(area), flux_k = u.col(k).dot(area);
-    const double flux = flux_i + flux_j + flux_k;
-    sum += (flux + flux_i) * (x.col(i) - c) + (flux + flux_j) * (x.col(j) - c) + (flux + flux_k) * (x.col(k) - c);
-  });
-  return density / 12 * sum;
-}
 
 DropMeasures measure_drop(const Drop& drop, double density) {
   DropMeasures measures;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/geometry/connectivity.h"
 
+#include "meniscus/core/error.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace meniscus {
@@ -43,6 +47,23 @@ void Connectivity::update_vertex(const Mesh& mesh, VertexIndex v) {
   if (!mesh.is_removed(v) && mesh.halfedge(v) != Mesh::null_halfedge())
     for (const auto h : CGAL::halfedges_around_target(mesh.halfedge(v), mesh)) read_face(mesh, mesh.face(h));
   read_ring(mesh, v);
+}
+
+void Connectivity::start_ring_at(std::uint32_t v, std::uint32_t neighbour) {
+  const Ring ring = this->ring(v);
+  const auto place = std::find(ring.neighbour, ring.neighbour + ring.degree, neighbour) - ring.neighbour;
+  if (place == ring.degree)
+    throw GeometryError(fmt::format("vertex {} cannot be the first around vertex {}: they share no edge", neighbour, v),
+                        {}, {v, neighbour});
+  const auto turn = [&](std::uint32_t* row) { std::rotate(row, row + place, row + ring.degree); };
+  if (ring.degree <= width) {
+    turn(&neighbour_[width * std::size_t{v}]);
+    turn(&corner_[width * std::size_t{v}]);
+  } else {
+    LongRing& turned = long_rings_[long_ring(v)];
+    turn(turned.neighbour.data());
+    turn(turned.corner.data());
+  }
 }
 
 void Connectivity::read_face(const Mesh& mesh, FaceIndex f) { triangles_[f] = sorted_triangle(mesh, f); }

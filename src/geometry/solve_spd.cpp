@@ -124,8 +124,8 @@ SolveReport SpdSolver::solve(const Connectivity& connectivity, const RingMatrix&
   if (!workspace_) workspace_ = std::make_unique<Workspace>();
   Workspace& work = *workspace_;
   const System system{connectivity, matrix, rhs, solution, fixed};
-  pattern_changed = pattern_changed || work.num_rows != connectivity.num_rows();
-  if (pattern_changed) work.incomplete_is_current = work.complete_is_current = false;
+  if (pattern_changed || work.num_rows != connectivity.num_rows())
+    work.incomplete_is_current = work.complete_is_current = false;
   work.num_rows = connectivity.num_rows();
 
   SolveReport report;

@@ -13,11 +13,14 @@
 #include <cstdio>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace meniscus {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view temporary_start = ".meniscus-", temporary_end = ".tmp";
 
 [[noreturn]] void fail(const fs::path& path, int error) {
   throw FileError(fmt::format("{}: cannot be written ({}); check the directory, its permissions and the space left",
@@ -74,7 +77,7 @@ class TemporaryFile {
  private:
   int create() {
     for (int attempt = 0;; ++attempt) {
-      name_ = target_.parent_path() / fmt::format(".meniscus-{}-{}.tmp", ::getpid(), attempt);
+      name_ = target_.parent_path() / fmt::format("{}{}-{}{}", temporary_start, ::getpid(), attempt, temporary_end);
       const int file = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (file >= 0 || errno != EEXIST) return file;
     }
@@ -97,6 +100,33 @@ void write_file_atomically(const fs::path& path, std::string_view contents) {
   TemporaryFile file(follow_links(path));
   file.fill(contents, exists ? status.st_mode & 07777 : 0);
   file.rename_to_target();
+}
+
+void append_to_file(const fs::path& path, std::string_view contents) {
+  io::FileDescriptor file(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
+  struct stat status {};
+  if (!file.is_open() || ::fstat(file.number(), &status) != 0) fail(path, errno);
+  if (write_all(file.number(), contents) && ::fsync(file.number()) == 0) return;
+  const int error = errno;
+  if (::ftruncate(file.number(), status.st_size) != 0) fail(path, errno);
+  fail(path, error);
+}
+
+void remove_temporary_files(const fs::path& directory) {
+  std::error_code error;
+  std::vector<fs::path> left;
+  for (fs::directory_iterator entry(directory, error), last; !error && entry != last; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    const auto length = temporary_start.size() + temporary_end.size();
+    if (name.size() > length && name.compare(0, temporary_start.size(), temporary_start) == 0 &&
+        name.compare(name.size() - temporary_end.size(), std::string::npos, temporary_end) == 0)
+      left.push_back(entry->path());
+  }
+  for (const fs::path& file : left)
+    if (!error) fs::remove(file, error);
+  if (error)
+    throw FileError(fmt::format("{}: cannot be tidied ({}); check the directory and its permissions",
+                                directory.string(), error.message()));
 }
 
 }  // namespace meniscus

@@ -38,6 +38,20 @@ Vector3d virtual_work_kick(const ContactLineVertex& line, double force, const Ve
   return ((mass * along + dt * c * force) / resistance - along) * line.outward;
 }
 
+/// The line turns by no more than this at a vertex, or by three times what a polygon of its number of vertices does.
+double largest_turn(std::size_t num_line) {
+  constexpr double pi = 3.14159265358979323846;
+  return std::max(pi / 2, num_line > 0 ? 6 * pi / static_cast<double>(num_line) : pi);
+}
+
+/// Where the line turns too sharply a vertex goes half way to the middle of its neighbours, stuck or not: one that
+/// stuck while they moved on would stay behind for good, and the line crumple.
+void straighten(Drop& drop, const std::vector<Vector3d>& middles, const std::vector<std::uint32_t>& sharp) {
+  Columns x = drop.positions();
+  for (std::size_t k = 0; k < sharp.size(); ++k)
+    x.col(sharp[k]) += constrain_to_solid(drop, sharp[k], 0.5 * (middles[k] - Vector3d(x.col(sharp[k]))));
+}
+
 }  // namespace
 
 ContactAngleReport apply_contact_angle(Drop& drop, const std::vector<Solid>& solids, const SurfaceGeometry& geometry,
@@ -47,13 +61,17 @@ ContactAngleReport apply_contact_angle(Drop& drop, const std::vector<Solid>& sol
   const auto n = static_cast<std::uint32_t>(drop.num_rows());
   std::vector<Vector3d>& kick = drop.workspace().vectors;  // all from the same state, so that order does not matter
   kick.resize(n);
+  for (std::uint32_t v = 0; v < n; ++v) report.line += contact[v] == Contact::line;
+  if (report.line == 0) return report;
+  const double sharp_turn = largest_turn(report.line);
+  std::vector<Vector3d> middles;
+  std::vector<std::uint32_t> sharp;
   for (std::uint32_t v = 0; v < n; ++v) {
     if (contact[v] != Contact::line) continue;
     kick[v].setZero();
-    ++report.line;
-    const auto line = contact_line_vertex(drop, v);
-    if (!line) continue;
     const Solid& solid = solids[drop.contact_solid()[v]];
+    const auto line = solid.inflow ? std::nullopt : contact_line_vertex(drop, v);
+    if (!line) continue;
     if (options.force == ContactForce::measured_angle) {
       kick[v] = measured_angle_kick(*line, solid.receding_angle, solid.advancing_angle, options.boundary_force);
       report.advancing += line->angle > solid.advancing_angle;
@@ -64,9 +82,12 @@ ContactAngleReport apply_contact_angle(Drop& drop, const std::vector<Solid>& sol
       kick[v] = virtual_work_kick(*line, force, slip, geometry.lumped_area(v), dt, options);
       report.advancing += force > 0;
       report.receding += force < 0;
+      if (line->turn > sharp_turn) {
+        middles.push_back(line->middle);
+        sharp.push_back(v);
+      }
     }
   }
-  if (report.line == 0) return report;
   Columns x = drop.positions(), velocity = drop.velocities();
   for (std::uint32_t v = 0; v < n; ++v) {
     if (contact[v] != Contact::line) continue;
@@ -74,6 +95,8 @@ ContactAngleReport apply_contact_angle(Drop& drop, const std::vector<Solid>& sol
     velocity.col(v) += change;
     x.col(v) += change * dt;
   }
+  straighten(drop, middles, sharp);
+  report.straightened = sharp.size();
   return report;
 }
 

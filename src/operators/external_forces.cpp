@@ -2,6 +2,7 @@
 #include "meniscus/operators/external_forces.h"
 
 #include "meniscus/core/error.h"
+#include "meniscus/state/contact_line.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +13,9 @@ using Eigen::Vector3d;
 
 /// How often a vertex that leaves one solid may end up in another before it is left where it is.
 constexpr int max_collision_passes = 3;
+
+constexpr double least_turn_cosine = 0.8660254037844387;  // 30 degrees
+constexpr int most_halvings = 5;
 
 /// v += g dt; x += v dt. Returns the box of the new positions; throws if it is not finite.
 Eigen::AlignedBox3d fall(Drop& drop, const Vector3d& gravity, double dt) {
@@ -49,17 +53,6 @@ void mark_wetted(const Drop& drop, std::vector<std::uint8_t>& wet) {
   }
 }
 
-/// Tells the contact line from the inside of the wetted area.
-void mark_contact_line(Drop& drop) {
-  Contact* contact = drop.contact();
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
-    if (contact[i] == Contact::free) continue;
-    const Ring ring = drop.connectivity().ring(i);
-    for (int k = 0; k < ring.degree; ++k)
-      if (contact[ring.neighbour[k]] == Contact::free) contact[i] = Contact::line;
-  }
-}
-
 /// Eq 2, relative to the solid: the new velocity.
 Vector3d apply_friction(const Vector3d& velocity, const Vector3d& solid_velocity, double epsilon) {
   const Vector3d slip = velocity - solid_velocity;
@@ -81,7 +74,7 @@ class Collider {
         dt_(dt),
         options_(options) {
     for (std::size_t s = 0; s < solids.size(); ++s)
-      if (solids[s].is_near(box, time, 0)) near_.push_back(s);
+      if (solids[s].is_near(box, time, options.touching_distance)) near_.push_back(s);
   }
 
   /// Whether any vertex needs a look: some solid is near, or some vertex was on one.
@@ -92,15 +85,20 @@ class Collider {
     std::int32_t& touched = drop_.contact_solid()[i];
     if (!stays) touched = -1;
     bool colliding = stays && touched >= 0;
-    if (colliding) place_on(static_cast<std::size_t>(touched), i, solids_[touched].query(x_.col(i), time_), true);
+    if (colliding && solids_[touched].inflow) {
+      hold(i, solids_[touched], before);
+      return true;
+    }
+    if (colliding) place_on(static_cast<std::size_t>(touched), i, follow(i, solids_[touched], before), true);
     for (int pass = 0; pass < max_collision_passes; ++pass) {
       std::size_t deepest = solids_.size();
       SolidContact contact{0, Vector3d::Zero(), Vector3d::Zero()};
       for (const std::size_t s : near_) {
         if (colliding && static_cast<std::int32_t>(s) == touched) continue;
-        if (!solids_[s].is_near(Eigen::AlignedBox3d(Vector3d(x_.col(i))), time_, 0)) continue;
+        if (!solids_[s].is_near(Eigen::AlignedBox3d(Vector3d(x_.col(i))), time_, options_.touching_distance)) continue;
         const SolidContact candidate = solids_[s].query(x_.col(i), time_);
-        if (candidate.distance <= 0 && (deepest == solids_.size() || candidate.distance < contact.distance)) {
+        if (candidate.distance <= options_.touching_distance &&
+            (deepest == solids_.size() || candidate.distance < contact.distance)) {
           deepest = s;
           contact = candidate;
         }
@@ -115,6 +113,31 @@ class Collider {
   }
 
  private:
+  /// Where a vertex that stays on its solid is now. A contact line vertex goes no further than the normal turns
+  /// by 30 degrees, so that it does not pass an edge without having been on it: there Gibbs's condition holds it.
+  SolidContact follow(std::uint32_t i, const Solid& solid, Contact before) {
+    SolidContact contact = solid.query(x_.col(i), time_);
+    if (before != Contact::line) return contact;
+    const Vector3d solid_velocity = solid.velocity(time_), normal_old = n_.col(i);
+    for (int halving = 0; halving < most_halvings && contact.normal.dot(normal_old) < least_turn_cosine; ++halving) {
+      const Vector3d back = 0.5 * (v_.col(i) - solid_velocity);
+      v_.col(i) -= back;
+      x_.col(i) -= back * dt_;
+      contact = solid.query(x_.col(i), time_);
+    }
+    return contact;
+  }
+
+  /// On a source: where it was, with the velocity of what comes out.
+  void hold(std::uint32_t i, const Solid& source, Contact before) {
+    const Vector3d solid_velocity = source.velocity(time_);
+    const Vector3d was = x_.col(i) - (v_.col(i) - solid_velocity) * dt_;
+    const SolidContact contact = source.query(was, time_);
+    x_.col(i) = before == Contact::line ? source.rim_point(was, time_) : contact.point;
+    v_.col(i) = solid_velocity + source.inflow->speed_at(time_) * contact.normal;
+    n_.col(i) = contact.normal;
+  }
+
   /// To the nearest point of the solid, without relative velocity along the normal (Eq 1).
   void place_on(std::size_t s, std::uint32_t i, const SolidContact& contact, bool keep_normal) {
     const Vector3d relative = v_.col(i) - solids_[s].velocity(time_);

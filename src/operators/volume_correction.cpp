@@ -4,6 +4,7 @@
 #include "meniscus/core/error.h"
 #include "meniscus/geometry/flow_matrix.h"
 #include "meniscus/geometry/rigid_motion.h"
+#include "meniscus/state/offset_to_volume.h"
 
 #include <fmt/format.h>
 
@@ -14,14 +15,6 @@ namespace meniscus {
 namespace {
 
 using Eigen::Vector3d;
-
-/// Secants need two rounds for a step's change of volume; more are for the first after a merge or a split.
-constexpr int max_rounds = 6;
-constexpr double volume_tolerance = 1e-12;
-
-bool takes_part(const Drop& drop, std::uint32_t i) {
-  return drop.connectivity().degree(i) > 0 && !is_colliding(drop.contact()[i]);
-}
 
 /// a_i = u_i . n_i (Eq 9), u without the rigid motion.
 void normal_rates(const Drop& drop, const SurfaceGeometry& geometry, std::vector<double>& rate) {
@@ -85,7 +78,7 @@ void correct_locally(Drop& drop, const SurfaceGeometry& geometry, double dt, con
   const std::vector<double>& excess = drop.workspace().more_scalars;
   Columns x = drop.positions(), v = drop.velocities();
   for (std::uint32_t i = 0; i < excess.size(); ++i) {
-    if (!takes_part(drop, i)) continue;
+    if (!is_off_solids(drop, i)) continue;
     const Vector3d change = -excess[i] * geometry.normal(i);
     v.col(i) += change;
     x.col(i) += change * dt;
@@ -95,35 +88,23 @@ void correct_locally(Drop& drop, const SurfaceGeometry& geometry, double dt, con
 /// Offsets the surface by d = (V_target - V)/A until the volume fits.
 void correct_globally(Drop& drop, const SurfaceGeometry& geometry, double dt, double limit,
                       VolumeCorrectionReport& report) {
-  Columns x = drop.positions(), v = drop.velocities();
-  const auto n = static_cast<std::uint32_t>(drop.num_rows());
-  double area = 0;  // dV/dd
-  for (std::uint32_t i = 0; i < n; ++i)
-    if (takes_part(drop, i)) area += geometry.area_vector(i).dot(geometry.normal(i)) / 3;
-  double flowed = 0;  // the flow's own offset, which the limit does not count
-  for (std::uint32_t i = 0; i < n; ++i)
-    if (takes_part(drop, i)) flowed += drop.displacements().col(i).dot(geometry.area_vector(i)) / 3;
-  const double target = drop.target_volume();
-  double error = drop.volume() - target;
-  report.relative_error_before = report.relative_error = error / target;
-  if (!(area > 0)) return;
-  const double expected = -flowed / area;
-  for (int round = 0; round < max_rounds && std::abs(error) > volume_tolerance * target && !report.limited; ++round) {
-    double d = -error / area;
-    const double total = std::clamp(report.offset + d, expected - limit, expected + limit);
-    report.limited = total != report.offset + d;
-    d = total - report.offset;
-    report.offset = total;
-    for (std::uint32_t i = 0; i < n; ++i)
-      if (takes_part(drop, i)) x.col(i) += d * geometry.normal(i);
-    const double error_old = error;
-    error = drop.volume() - target;
-    if (error != error_old) area = (error - error_old) / d;  // the secant: the normals are the step's start's
+  double area = 0, flowed = 0;  // dV/dd, and the flow's own change, which the limit does not count
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
+    if (!is_off_solids(drop, i)) continue;
+    area += geometry.area_vector(i).dot(geometry.normal(i)) / 3;
+    flowed += drop.displacements().col(i).dot(geometry.area_vector(i)) / 3;
   }
-  report.relative_error = error / target;
+  const double target = drop.target_volume(), expected = area > 0 ? -flowed / area : 0;
+  const VolumeOffset moved = offset_to_volume(drop, geometry, target, expected - limit, expected + limit);
+  report.relative_error_before = moved.error_before / target;
+  report.relative_error = moved.error / target;
+  report.offset = moved.offset;
+  report.limited = moved.limited;
+  if (!(area > 0)) return;
+  Columns v = drop.velocities();
   const double speed = report.offset / dt;
-  for (std::uint32_t i = 0; i < n; ++i)
-    if (takes_part(drop, i)) v.col(i) += speed * geometry.normal(i);
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+    if (is_off_solids(drop, i)) v.col(i) += speed * geometry.normal(i);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace meniscus::scene_detail {
 namespace {
@@ -24,6 +25,8 @@ double drop_area(const DropSpec& drop, double cap_angle) {
     }
     case DropShape::box:
       return 2 * (drop.size[0] * drop.size[1] + drop.size[1] * drop.size[2] + drop.size[2] * drop.size[0]);
+    case DropShape::scatter:  // of the largest there may be
+      return 4 * pi * drop.radius_max * drop.radius_max;
     case DropShape::cap: {  // of a ball of radius r: V = pi r^3 (2 - 3 c + c^3)/3
       const double c = std::cos(cap_angle);
       const double r = drop.radius * std::cbrt(4 / (2 - 3 * c + c * c * c));
@@ -47,15 +50,16 @@ class SceneCheck {
 
   void run() {
     check_mesh_band();
-    if (scene_.topology.self_merge) report("/topology/self_merge", "true is not available in this version");
     check_solid_names();
     for (std::size_t i = 0; i < scene_.solids.size(); ++i) check_solid(scene_.solids[i], child_pointer("/solids", i));
-    if (scene_.drops.empty() && root_.find("drops") && is_sound("/drops")) {
-      report("/drops", "there are no drops; give at least one");
-    }
+    check_any_liquid();
     for (std::size_t i = 0; i < scene_.drops.size(); ++i) {
-      if (scene_.drops[i].shape == DropShape::cap) check_cap(scene_.drops[i], child_pointer("/drops", i));
+      const std::string pointer = child_pointer("/drops", i);
+      if (scene_.drops[i].shape == DropShape::cap) check_cap(scene_.drops[i], pointer);
+      if (scene_.drops[i].shape == DropShape::scatter) check_scatter(scene_.drops[i], pointer);
     }
+    for (std::size_t i = 0; i < scene_.sources.size(); ++i)
+      check_source(scene_.sources[i], child_pointer("/sources", i));
     check_num_faces();
   }
 
@@ -63,7 +67,7 @@ class SceneCheck {
   // Whether neither the value at the pointer, nor what holds it, nor what it holds has a problem.
   bool is_sound(const std::string& pointer) const {
     const auto is_inside = [](const std::string& inner, const std::string& outer) {
-      return inner == outer || inner.compare(0, outer.size() + 1, outer + "/") == 0;
+      return inner.compare(0, outer.size(), outer) == 0 && (inner.size() == outer.size() || inner[outer.size()] == '/');
     };
     return std::none_of(known_.begin(), known_.end(), [&](const std::string& at) {
       return is_inside(at, pointer) || (!at.empty() && is_inside(pointer, at));
@@ -91,11 +95,10 @@ class SceneCheck {
   }
 
   void check_solid_names() {
+    std::map<std::string, std::size_t> first;
     for (std::size_t i = 0; i < scene_.solids.size(); ++i) {
       const std::string& name = scene_.solids[i].name;
-      const auto first = std::find_if(scene_.solids.begin(), scene_.solids.end(),
-                                      [&](const SolidSpec& solid) { return solid.name == name; });
-      const auto index = static_cast<std::size_t>(first - scene_.solids.begin());
+      const std::size_t index = first.emplace(name, i).first->second;
       if (name.empty() || index == i) continue;
       report(child_pointer("/solids", i) + "/name", fmt::format("solid {} already has the name \"{}\"", index, name));
     }
@@ -125,8 +128,42 @@ class SceneCheck {
     }
   }
 
+  void check_any_liquid() {
+    if (!scene_.sources.empty() || !scene_.drops.empty() || !is_sound("/drops") || !is_sound("/sources")) return;
+    if (root_.find("drops"))
+      report("/drops", "there are no drops; give at least one");
+    else
+      report("", "missing \"drops\" (a list of objects), and there are no \"sources\"");
+  }
+
   void check_cap(const DropSpec& drop, const std::string& pointer) {
-    if (drop.on.empty() || !is_sound(pointer + "/on")) return;
+    if (!is_sound(pointer)) return;
+    if (drop.on.empty()) return report(pointer, "missing \"on\" (text)");
+    check_seat(drop, pointer);
+  }
+
+  void check_scatter(const DropSpec& drop, const std::string& pointer) {
+    const std::string least = pointer + "/radius_min", greatest = pointer + "/radius_max";
+    if (is_sound(least) && is_sound(greatest) && drop.radius_max < drop.radius_min)
+      report(written(greatest, least),
+             fmt::format("radius_max {} is less than radius_min {}", drop.radius_max, drop.radius_min));
+    if (!drop.on.empty()) check_seat(drop, pointer);
+  }
+
+  void check_source(const SourceSpec& source, const std::string& pointer) {
+    if (is_sound(pointer + "/start") && is_sound(pointer + "/stop") && source.stop <= source.start)
+      report(written(pointer + "/stop", pointer + "/start"),
+             fmt::format("a source that starts at {} s must stop later than that", source.start));
+    if (is_sound("/mesh") && is_sound(pointer) && source.radius < scene_.mesh.edge_min)
+      report(written(pointer + "/radius", pointer),
+             fmt::format("a source of radius {} cm is too small for edges of edge_min {} cm; lower mesh.edge_min and "
+                         "mesh.edge_max, or make it larger",
+                         source.radius, scene_.mesh.edge_min));
+  }
+
+  // The solid that a drop sits on, which must have its name.
+  void check_seat(const DropSpec& drop, const std::string& pointer) {
+    if (!is_sound(pointer + "/on")) return;
     const SolidSpec* solid = solid_called(drop.on);
     std::vector<std::string> names;
     for (const SolidSpec& other : scene_.solids) names.push_back(other.name);
@@ -134,8 +171,6 @@ class SceneCheck {
       const std::string nearest = nearest_name(drop.on, names);
       report(pointer + "/on", fmt::format("no solid has the name \"{}\"{}", drop.on,
                                           nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
-    } else if (solid->shape != SolidShape::plane && is_sound("/solids")) {
-      report(pointer + "/on", fmt::format("a cap sits on a plane, but \"{}\" is none", drop.on));
     } else if (!drop.angle && is_sound("/solids") && solid->advancing_angle + solid->receding_angle >= 2 * pi) {
       report(pointer, "nothing wets that solid (its angles are 180 degrees); give the cap an \"angle_deg\"");
     }
@@ -164,14 +199,17 @@ class SceneCheck {
       if (!is_sound(pointer)) continue;
       const double area = drop_area(scene_.drops[i], cap_angle(scene_.drops[i]));
       const double faces = num_triangles(area, edge);
-      total += faces;
+      const bool is_scatter = scene_.drops[i].shape == DropShape::scatter;
+      const double least =
+          is_scatter ? area * std::pow(scene_.drops[i].radius_min / scene_.drops[i].radius_max, 2) : area;
+      total += is_scatter ? scene_.drops[i].count * faces : faces;
       if (faces > most_faces) {
         report(pointer,
                fmt::format("edges of {:.3g} cm need {:.3g} million faces, more than 50 million; raise mesh.edge_min "
                            "and mesh.edge_max, or make the drop smaller",
                            edge, faces / 1e6));
         is_reported = true;
-      } else if (area > 0 && num_triangles(area, band.edge_min) < 4) {
+      } else if (least > 0 && num_triangles(least, band.edge_min) < 4) {
         report(pointer,
                fmt::format("the drop is smaller than one tetrahedron of edges of edge_min {} cm; lower mesh.edge_min "
                            "and mesh.edge_max, or make the drop larger",

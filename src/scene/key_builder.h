@@ -55,6 +55,14 @@ class Keys {
     return *this;
   }
   template <class F>
+  Keys& optional_number(const char* name, const char* unit, const Range& range, const char* help, F field) {
+    Key& key = add(name, KeyKind::number, help, unit, range);
+    bind(
+        key, [field](const T& t) { return field(t) ? Json(*field(t)) : Json(); },
+        [field](T& t, const Json& value) { field(t) = value.get<double>(); });
+    return *this;
+  }
+  template <class F>
   Keys& integer(const char* name, const Range& range, const char* help, F field) {
     Key& key = add(name, KeyKind::integer, help, "", range);
     bind(

@@ -55,6 +55,7 @@ class KeyReader {
 
  private:
   void report(const Place& place, const std::string& pointer, std::string message) {
+    if (problems_.size() >= most_problems) return;
     problems_.push_back({place, pointer, std::move(message)});
   }
 

@@ -57,7 +57,8 @@ std::vector<std::string> to_messages(std::vector<Problem> problems, const std::s
   for (std::size_t i = 0; i < std::min(problems.size(), most_messages); ++i)
     messages.push_back(to_message(problems[i], name));
   if (problems.size() > most_messages)
-    messages.push_back(fmt::format("... and {} more", problems.size() - most_messages));
+    messages.push_back(fmt::format("... and {}{} more", problems.size() < most_problems ? "" : "at least ",
+                                   problems.size() - most_messages));
   return messages;
 }
 

@@ -100,6 +100,7 @@ std::string scene_schema() {
                  {"description", "Drops of liquid and the solids that they meet; cm, g, s. Comments are allowed."}};
   const Scene defaults = default_scene();
   schema.update(object_schema(scene_keys(), &defaults));
+  schema["anyOf"] = {{{"required", {"drops"}}}, {{"required", {"sources"}}}};
   return schema.dump(2) + "\n";
 }
 

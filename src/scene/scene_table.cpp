@@ -69,6 +69,10 @@ Keys<SolidSpec> solid_keys() {
               MENISCUS_FIELD(rotation))
       .of({"box", "mesh"});
   keys.vector("translate", "cm", any_number, "shift of the mesh, last", MENISCUS_FIELD(translation)).of({"mesh"});
+  keys.optional_number("edge_radius", "cm", not_negative, "its edges are rounded by this, so that liquid can pass them",
+                       MENISCUS_FIELD(edge_radius))
+      .of({"box", "cylinder"})
+      .note("mesh.edge_min");
   keys.angle("advancing_angle_deg", contact_angle,
              "contact angle through the liquid from which on the contact line advances",
              MENISCUS_FIELD(advancing_angle));
@@ -86,26 +90,25 @@ Keys<SolidSpec> solid_keys() {
   return keys;
 }
 
-const std::vector<std::pair<const char*, DropShape>> drop_shapes = {{"sphere", DropShape::sphere},
-                                                                    {"ellipsoid", DropShape::ellipsoid},
-                                                                    {"box", DropShape::box},
-                                                                    {"cap", DropShape::cap},
-                                                                    {"mesh", DropShape::mesh}};
+const std::vector<std::pair<const char*, DropShape>> drop_shapes = {
+    {"sphere", DropShape::sphere}, {"ellipsoid", DropShape::ellipsoid}, {"box", DropShape::box},
+    {"cap", DropShape::cap},       {"scatter", DropShape::scatter},     {"mesh", DropShape::mesh}};
 
 Keys<DropSpec> drop_keys() {
   const std::vector<std::pair<const char*, DropShape>> named(drop_shapes.begin(), drop_shapes.end() - 1);
   Keys<DropSpec> keys;
-  keys.choice("shape", "what it is; a drop from a mesh file has the key \"mesh\" in place of it", named, {"scatter"},
+  keys.choice("shape", "what it is; a drop from a mesh file has the key \"mesh\" in place of it", named, {},
               MENISCUS_FIELD(shape))
-      .of({"sphere", "ellipsoid", "box", "cap"})
+      .of({"sphere", "ellipsoid", "box", "cap", "scatter"})
       .required();
   keys.file("mesh", "a closed mesh (OFF, PLY, OBJ, STL), or a frame: each component or marked drop is one drop",
             MENISCUS_FIELD(file))
       .of({"mesh"})
       .required();
-  keys.vector("center", "cm", any_number, "its centre; a cap sits at the nearest point of its solid",
+  keys.vector("center", "cm", any_number,
+              "its centre; a cap sits at the nearest point of its solid; of the box that drops are scattered over",
               MENISCUS_FIELD(center))
-      .of({"sphere", "ellipsoid", "box", "cap"});
+      .of({"sphere", "ellipsoid", "box", "cap", "scatter"});
   keys.number("radius", "cm", positive, "its radius; a cap's is that of the ball of the same volume",
               MENISCUS_FIELD(radius))
       .of({"sphere", "cap"})
@@ -113,12 +116,32 @@ Keys<DropSpec> drop_keys() {
   keys.vector("semi_axes", "cm", positive, "half its lengths along x, y, z before rotation", MENISCUS_FIELD(semi_axes))
       .of({"ellipsoid"})
       .required();
-  keys.vector("size", "cm", positive, "its edge lengths along x, y, z before rotation", MENISCUS_FIELD(size))
-      .of({"box"})
+  keys.vector("size", "cm", positive,
+              "its edge lengths along x, y, z before rotation; of the box that drops are scattered over",
+              MENISCUS_FIELD(size))
+      .of({"box", "scatter"})
       .required();
-  keys.text("on", "the name of the plane that it sits on", MENISCUS_FIELD(on)).of({"cap"}).required();
+  keys.integer("count", {1, 1e6}, "how many drops", MENISCUS_FIELD(count)).of({"scatter"}).required();
+  keys.integer("seed", {0, 2147483647}, "of the random numbers: the same seed, the same drops", MENISCUS_FIELD(seed))
+      .of({"scatter"});
+  keys.number("radius_min", "cm", positive, "least radius of the ball of a drop's volume", MENISCUS_FIELD(radius_min))
+      .of({"scatter"});
+  keys.number("radius_max", "cm", positive, "greatest; at least radius_min", MENISCUS_FIELD(radius_max))
+      .of({"scatter"});
+  keys.choice<ScatterSizes>("sizes", "how the radii are spread: each ratio as often (log_uniform), or each difference",
+                            {{"log_uniform", ScatterSizes::log_uniform}, {"uniform", ScatterSizes::uniform}}, {},
+                            MENISCUS_FIELD(sizes))
+      .of({"scatter"});
+  keys.number("gap", "cm", not_negative, "least distance from drop to drop at the start", MENISCUS_FIELD(gap))
+      .of({"scatter"});
+  keys.text("on",
+            "the name of the solid that it sits on, as a cap; a cap needs one; scattered drops without one float as "
+            "balls",
+            MENISCUS_FIELD(on))
+      .of({"cap", "scatter"})
+      .note("none");
   keys.optional_angle("angle_deg", {0, 180, true, true}, "its contact angle", MENISCUS_FIELD(angle))
-      .of({"cap"})
+      .of({"cap", "scatter"})
       .note("midway between the solid's two angles");
   keys.number("scale", "", positive, "factor on the mesh, about its origin, first", MENISCUS_FIELD(scale)).of({"mesh"});
   keys.angles("rotate_deg",
@@ -130,7 +153,23 @@ Keys<DropSpec> drop_keys() {
               MENISCUS_FIELD(velocity));
   keys.vector("angular_velocity", "rad/s", any_number, "rotation about its centre of mass at the start, likewise",
               MENISCUS_FIELD(angular_velocity));
-  keys.unavailable("scatter", "many drops of random size");
+  return keys;
+}
+
+const std::vector<std::pair<const char*, SourceShape>> source_shapes = {{"disc", SourceShape::disc}};
+
+Keys<SourceSpec> source_keys() {
+  Keys<SourceSpec> keys;
+  keys.choice("shape", "what it is", source_shapes, {}, MENISCUS_FIELD(shape)).required();
+  keys.vector("center", "cm", any_number, "its centre", MENISCUS_FIELD(center));
+  keys.vector("normal", "", any_number, "where the liquid goes; of any length", MENISCUS_FIELD(normal)).nonzero();
+  keys.number("radius", "cm", positive, "its radius", MENISCUS_FIELD(radius));
+  keys.number("speed", "cm/s", positive, "of the liquid through it: the volume grows by speed times area times time",
+              MENISCUS_FIELD(speed));
+  keys.number("start", "s", not_negative, "when the liquid begins to flow", MENISCUS_FIELD(start));
+  keys.number("stop", "s", not_negative, "when it ends; later than start", MENISCUS_FIELD(stop))
+      .note("never")
+      .write_if([](const SourceSpec& source) { return std::isfinite(source.stop); });
   return keys;
 }
 
@@ -141,8 +180,8 @@ void add_sections(Keys<Scene>& keys) {
                    .number("surface_tension", "g/s^2", not_negative, "sigma", MENISCUS_FIELD(liquid.surface_tension))
                    .number("viscosity", "cm^2/s", not_negative, "nu, kinematic", MENISCUS_FIELD(liquid.viscosity)));
   keys.choice<Level>("model", "how closely the motion follows physics",
-                     {{"paper", Level::paper}, {"calibrated", Level::calibrated}},
-                     {"pressure", "dispersive", "potential", "auto"}, MENISCUS_FIELD(model));
+                     {{"paper", Level::paper}, {"calibrated", Level::calibrated}, {"pressure", Level::pressure}},
+                     {"dispersive", "potential", "auto"}, MENISCUS_FIELD(model));
   keys.section("paper", "coefficients of the paper's operators, used by the model \"paper\" only",
                Keys<Scene>()
                    .number("curvature_flow_coefficient", "cm^2/s", not_negative, "gamma (Eq 4)",
@@ -165,14 +204,18 @@ void add_sections(Keys<Scene>& keys) {
                   MENISCUS_FIELD(mesh.edge_min))
           .number("edge_max", "cm", positive, "longer edges are split", MENISCUS_FIELD(mesh.edge_max))
           .number("wetted_weight", "", {0, 1, true, false},
-                  "factor on lengths inside the wetted area: coarser if small", MENISCUS_FIELD(mesh.wetted_weight)));
-  keys.section("topology", "what may change a drop's connectivity",
-               Keys<Scene>()
-                   .boolean("merge", "drops that touch become one (coming: accepted, has no effect yet)",
-                            MENISCUS_FIELD(topology.merge))
-                   .boolean("self_merge", "a drop that touches itself fuses there (coming: only false for now)",
-                            MENISCUS_FIELD(topology.self_merge))
-                   .boolean("split", "thin necks pinch off", MENISCUS_FIELD(topology.split)));
+                  "factor on lengths inside the wetted area: coarser if small", MENISCUS_FIELD(mesh.wetted_weight))
+          .number("refinement", "", {1, 10}, "how many times shorter edges may be where the free surface curves",
+                  MENISCUS_FIELD(mesh.refinement)));
+  keys.section(
+      "topology", "what may change a drop's connectivity",
+      Keys<Scene>()
+          .boolean("merge", "drops that touch become one", MENISCUS_FIELD(topology.merge))
+          .boolean("self_merge", "a drop that touches itself fuses there, not only beside a fresh seam",
+                   MENISCUS_FIELD(topology.self_merge))
+          .boolean("keep_air", "air that merging shuts in stays as a bubble until the drop splits; else it is filled",
+                   MENISCUS_FIELD(topology.keep_air))
+          .boolean("split", "thin necks pinch off", MENISCUS_FIELD(topology.split)));
   keys.section("solver", "the linear solver of the implicit steps",
                Keys<Scene>()
                    .choice<SolverMethod>("method", "\"auto\" takes the one that is fastest by measurement",
@@ -204,7 +247,14 @@ void add_lists(Keys<Scene>& keys) {
   drops.finish = [](void* item, const std::set<std::string>& given) {
     if (given.count("mesh")) static_cast<DropSpec*>(item)->shape = DropShape::mesh;
   };
-  keys.list("drops", "the drops at the start, at least one", MENISCUS_FIELD(drops), drops, drop_keys()).required();
+  keys.list("drops", "the drops at the start; at least one, if there are no sources", MENISCUS_FIELD(drops), drops,
+            drop_keys());
+
+  Items sources;
+  sources.noun = "source";
+  for (const auto& shape : source_shapes) sources.shapes.push_back(shape.first);
+  sources.shape_of = shape_namer<SourceSpec>(source_shapes);
+  keys.list("sources", "what liquid flows from", MENISCUS_FIELD(sources), sources, source_keys());
 }
 
 }  // namespace
@@ -217,10 +267,9 @@ const std::vector<Key>& scene_keys() {
     keys.integer("frames", {0, 1e7}, "frames to write after the first, which shows the start", MENISCUS_FIELD(frames));
     keys.integer("steps_per_frame", {1, 1e6}, "steps from a frame to the next", MENISCUS_FIELD(steps_per_frame));
     keys.vector("gravity", "cm/s^2", any_number, "acceleration of gravity", MENISCUS_FIELD(gravity));
+    keys.boolean("sleep", "drops at rest are not stepped until something comes near", MENISCUS_FIELD(sleep));
     add_sections(keys);
     add_lists(keys);
-    keys.unavailable("sources", "discs that liquid flows from");
-    keys.unavailable("sleep", "drops at rest are not stepped");
     return keys.take();
   }();
   return table;

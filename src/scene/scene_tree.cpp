@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 
 namespace meniscus::scene_detail {
 namespace {
 
 constexpr std::size_t deepest_nesting = 32;
+// Beyond these no scene was written by anyone, and looking for duplicates would take hours.
+constexpr std::size_t most_keys = 1000, most_items = 100000;
 constexpr std::size_t most_overflows = 20;
 
 // Tells how far the parser has read: the SAX events come without positions.
@@ -77,16 +80,22 @@ class TokenFinder {
     const auto line = next == line_starts_.begin() ? next : std::prev(next);
     Place place;
     place.line = static_cast<std::size_t>(line - line_starts_.begin()) + 1;
-    place.column = 1;
-    for (std::size_t i = *line; i < offset; ++i) {
-      if ((static_cast<unsigned char>(text_[i]) & 0xC0u) != 0x80u) ++place.column;  // characters, not bytes
+    // Tokens come in order: counting goes on where it ended, or a scene of one long line would take hours.
+    if (*line > counted_to_ || offset < counted_to_) {
+      counted_to_ = *line;
+      column_ = 1;
     }
+    for (; counted_to_ < offset; ++counted_to_) {
+      if ((static_cast<unsigned char>(text_[counted_to_]) & 0xC0u) != 0x80u) ++column_;  // characters, not bytes
+    }
+    place.column = column_;
     return place;
   }
 
  private:
   std::string_view text_;
   std::vector<std::size_t> line_starts_;
+  mutable std::size_t counted_to_ = 0, column_ = 1;  // the column of the character at counted_to_
 };
 
 // What nlohmann-json found wrong, in our words.
@@ -173,6 +182,16 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     problems_.push_back({finder_.place(offset), container(), std::move(message)});
   }
 
+  // Whether the innermost list or object may grow further; reports it if not.
+  bool has_room(std::size_t start) {
+    if (open_.empty()) return true;
+    const Node& parent = *open_.back();
+    if (parent.children.size() < (parent.is_object() ? most_keys : most_items)) return true;
+    fail(start, parent.is_object() ? fmt::format("an object of more than {} keys", most_keys)
+                                   : fmt::format("a list of more than {} items", most_items));
+    return false;
+  }
+
   Node& append(std::size_t start) {
     Node* node = &root_;
     if (!open_.empty()) {
@@ -187,6 +206,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
 
   template <class T>
   bool add(T&& value, std::size_t start) {
+    if (!has_room(start)) return false;
     append(start).scalar = std::forward<T>(value);
     return true;
   }
@@ -196,6 +216,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
       fail(consumed_ - 1, fmt::format("nested deeper than {} levels", deepest_nesting));
       return false;
     }
+    if (!has_room(consumed_ - 1)) return false;
     Node& node = append(consumed_ - 1);
     node.kind = kind;
     open_.push_back(&node);
@@ -258,19 +279,18 @@ std::string child_pointer(const std::string& pointer, std::size_t index) {
 
 const Node& deepest(const Node& root, const std::string& pointer) {
   const Node* node = &root;
-  std::string at;
-  bool is_deeper = true;
-  while (is_deeper && at != pointer) {
-    is_deeper = false;
-    for (std::size_t i = 0; i < node->children.size(); ++i) {
-      const Node& child = node->children[i];
-      const std::string next = node->is_list() ? child_pointer(at, i) : child_pointer(at, child.key);
-      if (pointer != next && pointer.compare(0, next.size() + 1, next + "/") != 0) continue;
-      node = &child;
-      at = next;
-      is_deeper = true;
-      break;
+  std::vector<std::string> words;
+  for (nlohmann::json::json_pointer rest(pointer); !rest.empty(); rest.pop_back()) words.push_back(rest.back());
+  for (auto word = words.rbegin(); word != words.rend(); ++word) {
+    const Node* child = node->find(*word);
+    if (node->is_list()) {
+      std::size_t index = 0;
+      const auto [end, error] = std::from_chars(word->data(), word->data() + word->size(), index);
+      const bool is_index = error == std::errc() && end == word->data() + word->size();
+      child = is_index && index < node->children.size() ? &node->children[index] : nullptr;
     }
+    if (!child) break;
+    node = child;
   }
   return *node;
 }

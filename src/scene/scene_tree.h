@@ -24,6 +24,9 @@ struct Problem {
   std::string message;
 };
 
+/// Looking for more stops here: a file with as many is no scene, and each is compared with each key.
+inline constexpr std::size_t most_problems = 1000;
+
 struct Node {
   enum class Kind { scalar, list, object };
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "make_scatter.h"
 #include "meniscus/core/error.h"
 #include "meniscus/geometry/rigid_motion.h"
 #include "meniscus/geometry/shapes.h"
 #include "meniscus/io/read_mesh.h"
 #include "meniscus/operators/external_forces.h"
 #include "meniscus/simulation/simulation.h"
+#include "place_cap.h"
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -60,50 +62,44 @@ MeshData read_placed_mesh(const Scene& scene, const Spec& spec) {
 }
 
 const char* shape_name(DropShape shape) {
-  constexpr const char* names[] = {"sphere", "ellipsoid", "box", "cap", "mesh"};
+  constexpr const char* names[] = {"sphere", "ellipsoid", "box", "cap", "scatter", "mesh"};
   return names[static_cast<std::size_t>(shape)];
 }
 
-/// The contact radius of a spherical cap with the volume of a ball of radius `ball_radius`.
-double cap_contact_radius(double ball_radius, double angle) {
-  const double c = std::cos(angle);
-  const double volume = 4 * pi / 3 * std::pow(ball_radius, 3);
-  const double cap_radius = std::cbrt(3 * volume / (pi * (2 - 3 * c + c * c * c)));
-  return cap_radius * std::sin(angle);
-}
-
-/// The plane that a cap sits on: the reader has checked that it is there.
-const SolidSpec& plane_of(const Scene& scene, const DropSpec& spec) {
-  for (const SolidSpec& solid : scene.solids)
+/// The solid that a cap sits on: the reader has checked that it is there.
+const Solid& seat_of(const std::vector<Solid>& solids, const DropSpec& spec) {
+  for (const Solid& solid : solids)
     if (solid.name == spec.on) return solid;
   throw UsageError(fmt::format("a cap sits on \"{}\", but no solid has that name", spec.on));
 }
 
-Mesh make_cap_on_plane(const Scene& scene, const DropSpec& spec, double edge_length) {
-  const SolidSpec& plane = plane_of(scene, spec);
-  const Vector3d normal = plane.normal.normalized();
-  const double angle = spec.angle.value_or(0.5 * (plane.advancing_angle + plane.receding_angle));
-  const Vector3d center = spec.center - (spec.center - plane.point).dot(normal) * normal;
-  return make_cap(center, normal, cap_contact_radius(spec.radius, angle), angle, edge_length);
+Mesh make_cap_on(const Solid& solid, const DropSpec& spec, double edge_length) {
+  const double angle = spec.angle.value_or(resting_angle(solid));
+  std::optional<Mesh> cap = place_cap(solid, spec.center, spec.radius, angle, edge_length);
+  if (!cap)
+    throw GeometryError(fmt::format(
+        "\"{}\" bends or ends too near for a cap of this size; make it smaller or move its center", spec.on));
+  return std::move(*cap);
 }
 
 /// The mesh of one drop that is given by its shape.
-Mesh make_shape(const Scene& scene, const DropSpec& spec) {
+Mesh make_shape(const Scene& scene, const DropSpec& spec, const std::vector<Solid>& solids) {
   const double edge_length = 0.5 * (scene.mesh.edge_min + scene.mesh.edge_max);
   Mesh mesh;
   switch (spec.shape) {
     case DropShape::sphere:
       return make_sphere(spec.center, spec.radius, edge_length);
     case DropShape::cap:
-      return make_cap_on_plane(scene, spec, edge_length);
+      return make_cap_on(seat_of(solids, spec), spec, edge_length);
     case DropShape::ellipsoid:
       mesh = make_ellipsoid(spec.center, spec.semi_axes, edge_length);
       break;
     case DropShape::box:
       mesh = make_box(spec.center, spec.size, edge_length);
       break;
+    case DropShape::scatter:
     case DropShape::mesh:
-      throw UsageError("a mesh file is no shape");  // make_drops reads it
+      throw UsageError("a mesh file or a scatter is no shape");  // make_drops_of makes them
   }
   rotate(mesh, spec.rotation, spec.center);
   return mesh;
@@ -118,11 +114,29 @@ void set_in_motion(Drop& drop, const DropSpec& spec) {
     v.col(i) += spec.velocity + spec.angular_velocity.cross(Vector3d(x.col(i)) - center);
 }
 
-std::vector<Drop> make_drops_of(const Scene& scene, const DropSpec& spec) {
-  if (spec.shape == DropShape::mesh) return to_drops(read_placed_mesh(scene, spec));
+/// `taken` grows by the balls of the drops.
+std::vector<Drop> make_drops_of(const Scene& scene, const DropSpec& spec, const std::vector<Solid>& solids,
+                                std::vector<BoundingBall>& taken) {
   std::vector<Drop> drops;
-  drops.emplace_back(make_shape(scene, spec));
+  if (spec.shape == DropShape::scatter) {
+    for (Mesh& mesh : make_scatter(scene, spec, solids, taken)) drops.emplace_back(std::move(mesh));
+    return drops;
+  }
+  if (spec.shape == DropShape::mesh)
+    drops = to_drops(read_placed_mesh(scene, spec));
+  else
+    drops.emplace_back(make_shape(scene, spec, solids));
+  for (const Drop& drop : drops) taken.push_back(bounding_ball(drop.mesh()));
   return drops;
+}
+
+/// Edges are rounded just enough for the mesh to feel them.
+double edge_radius(const Scene& scene, const SolidSpec& spec) { return spec.edge_radius.value_or(scene.mesh.edge_min); }
+
+Solid make_source(const SourceSpec& spec) {
+  Solid solid = Solid::disc(spec.center, spec.normal, spec.radius);
+  solid.inflow = Inflow{spec.speed, spec.center, spec.radius, spec.start, spec.stop};
+  return solid;
 }
 
 Solid make_shape(const Scene& scene, const SolidSpec& spec) {
@@ -132,9 +146,9 @@ Solid make_shape(const Scene& scene, const SolidSpec& spec) {
     case SolidShape::sphere:
       return Solid::sphere(spec.center, spec.radius);
     case SolidShape::box:
-      return Solid::box(spec.center, spec.size, rotation_matrix(spec.rotation));
+      return Solid::box(spec.center, spec.size, rotation_matrix(spec.rotation), edge_radius(scene, spec));
     case SolidShape::cylinder:
-      return Solid::cylinder(spec.from, spec.to, spec.radius);
+      return Solid::cylinder(spec.from, spec.to, spec.radius, edge_radius(scene, spec));
     case SolidShape::capsule:
       return Solid::capsule(spec.from, spec.to, spec.radius);
     case SolidShape::mesh:
@@ -173,15 +187,17 @@ std::vector<Solid> make_solids(const Scene& scene) {
       throw GeometryError(fmt::format("{}: {}", label(scene, s), error.what()), error.faces(), error.vertices());
     }
   }
+  for (const SourceSpec& source : scene.sources) solids.push_back(make_source(source));
   return solids;
 }
 
 std::vector<Drop> make_drops(const Scene& scene, const std::vector<Solid>& solids) {
   std::vector<Drop> drops;
+  std::vector<BoundingBall> taken;
   for (std::size_t d = 0; d < scene.drops.size(); ++d) {
     const DropSpec& spec = scene.drops[d];
     try {
-      for (Drop& drop : make_drops_of(scene, spec)) {
+      for (Drop& drop : make_drops_of(scene, spec, solids, taken)) {
         set_in_motion(drop, spec);
         find_contact(drop, solids, 0, contact_tolerance);
         drop.set_id(static_cast<int>(drops.size()));
@@ -205,7 +221,13 @@ StepOptions make_step_options(const Scene& scene) {
   options.volume_correction = scene.volume_correction;
   options.band = scene.mesh;
   options.split = scene.topology.split;
+  options.merge = scene.topology.merge;
+  options.self_merge = scene.topology.self_merge;
+  options.keep_air = scene.topology.keep_air;
   options.solver = scene.solver;
+#ifndef NDEBUG
+  options.verify = Verify::topology;
+#endif
   return options;
 }
 

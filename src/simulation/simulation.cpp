@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/simulation/simulation.h"
 
+#include "meniscus/core/error.h"
 #include "meniscus/operators/external_forces.h"
+#include "meniscus/simulation/approaching.h"
+#include "meniscus/state/judge.h"
+#include "sleep.h"
+#include "step_parts.h"
 
-#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 
 namespace meniscus {
 
 Simulation::Simulation(const Scene& scene) : solids_(make_solids(scene)), drops_(make_drops(scene, solids_)) {
   options_ = make_step_options(scene);
   time_step_ = scene.time_step;
+  sleep_ = scene.sleep;
   for (const Drop& drop : drops_) next_id_ = std::max(next_id_, drop.id() + 1);
 }
 
@@ -21,6 +28,7 @@ Simulation::Simulation(const Scene& scene, std::vector<Drop> drops)
     : solids_(make_solids(scene)),
       drops_(std::move(drops)),
       options_(make_step_options(scene)),
+      sleep_(scene.sleep),
       time_step_(scene.time_step) {
   for (Drop& drop : drops_) {
     find_contact(drop, solids_, time_, contact_tolerance);
@@ -29,32 +37,105 @@ Simulation::Simulation(const Scene& scene, std::vector<Drop> drops)
 }
 
 StepReport Simulation::step() {
+  const double target_volume_before = target_volume(), start = time_;
   ++num_steps_;
   time_ = static_cast<double>(num_steps_) * time_step_;
-  std::vector<std::vector<Drop>> pieces(drops_.size());
-  std::vector<StepReport> reports(drops_.size());
-  std::vector<std::exception_ptr> failures(drops_.size());
-  tbb::enumerable_thread_specific<Remesher> remeshers;
-  tbb::parallel_for(std::size_t{0}, drops_.size(), [&](std::size_t d) {
+  StepReport report;
+  report.volume_added = feed_.feed(drops_, solids_, start, time_, options_.band, next_id_).volume_added;
+  if (sleep_) wake_drops(drops_, solids_, time_, time_step_, sleep_options(options_.band));
+  step_all(report);
+  if (options_.merge) merge(drops_, places_, report);
+  report.triangles = 0;
+  for (Drop& drop : drops_) {
+    if (drop.id() == no_id) drop.set_id(next_id_++);
+    report.triangles += drop.mesh().number_of_faces();
+  }
+  if (options_.verify == Verify::everything) verify(report, target_volume_before);
+  return report;
+}
+
+void Simulation::step_all(StepReport& report) {
+  std::vector<Cluster> clusters;
+  if (options_.merge && drops_.size() > 1)
+    clusters = clusters_of_approaching_drops(drops_, time_step_, options_.band.edge_max, paths_);
+  else
+    for (std::uint32_t d = 0; d < drops_.size(); ++d) clusters.push_back({{d}, 1});
+  std::vector<std::vector<Drop>> results(clusters.size());
+  std::vector<StepReport> reports(clusters.size());
+  std::vector<std::exception_ptr> failures(clusters.size());
+  tbb::parallel_for(std::size_t{0}, clusters.size(), [&](std::size_t c) {
     try {
-      pieces[d] = step_drop(std::move(drops_[d]), solids_, time_, time_step_, options_, remeshers.local(), reports[d]);
+      std::vector<Drop> drops;
+      for (const std::uint32_t d : clusters[c].drops) drops.push_back(std::move(drops_[d]));
+      results[c] = step_cluster(std::move(drops), clusters[c].substeps, reports[c]);
     } catch (...) {
-      failures[d] = std::current_exception();
+      failures[c] = std::current_exception();
     }
   });
-  for (const std::exception_ptr& failure : failures)  // the first drop's, whichever thread was first
+  for (const std::exception_ptr& failure : failures)  // the first cluster's, whichever thread was first
     if (failure) std::rethrow_exception(failure);
-
-  StepReport report;
   drops_.clear();
-  for (std::size_t d = 0; d < pieces.size(); ++d) {
-    report += reports[d];
-    for (std::size_t k = 0; k < pieces[d].size(); ++k) {
-      if (k > 0) pieces[d][k].set_id(next_id_++);
-      drops_.push_back(std::move(pieces[d][k]));
-    }
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    report += reports[c];
+    std::move(results[c].begin(), results[c].end(), std::back_inserter(drops_));
   }
-  return report;
+}
+
+std::vector<Drop> Simulation::step_cluster(std::vector<Drop> drops, int substeps, StepReport& report) {
+  BroadPhase broad_phase;
+  const double dt = time_step_ / substeps;
+  const SleepOptions sleep = sleep_options(options_.band);
+  for (int k = substeps - 1; k >= 0; --k) {
+    std::vector<Drop> next;
+    for (Drop& drop : drops) {
+      if (sleep_ && is_asleep(drop, sleep)) {
+        report.asleep_triangles += drop.mesh().number_of_faces();
+        ++report.asleep;
+        next.push_back(std::move(drop));
+        continue;
+      }
+      StepReport of_drop;
+      std::vector<Drop> pieces =
+          step_drop(std::move(drop), solids_, time_ - k * dt, dt, options_, remeshers_.local(), of_drop);
+      report += of_drop;
+      for (std::size_t p = 0; p < pieces.size(); ++p) {
+        if (p > 0) pieces[p].set_id(no_id);
+        if (sleep_) count_rest(pieces[p], dt, of_drop.edge_operations > 0, sleep);
+        next.push_back(std::move(pieces[p]));
+      }
+    }
+    drops = std::move(next);
+    if (k > 0) merge(drops, broad_phase, report);
+  }
+  return drops;
+}
+
+void Simulation::merge(std::vector<Drop>& drops, BroadPhase& broad_phase, StepReport& report) {
+  const double start = options_.clock ? options_.clock() : 0;
+  report += merge_touching_drops(drops, broad_phase, merge_options(options_), remeshers_);
+  if (options_.clock) report.stage_seconds[static_cast<std::size_t>(Stage::merge)] += options_.clock() - start;
+}
+
+void Simulation::check_restored() const {
+  for (const Drop& drop : drops_)
+    for (std::size_t v = 0; v < drop.num_rows(); ++v) {
+      const auto solid = static_cast<std::int64_t>(drop.contact_solid()[v]);
+      if (is_colliding(drop.contact()[v]) && (solid < 0 || solid >= static_cast<std::int64_t>(solids_.size())))
+        throw FileError(fmt::format("drop {}: vertex {} touches solid {}, but there are {}; the checkpoint is damaged",
+                                    drop.id(), v, solid, solids_.size()));
+    }
+}
+
+void Simulation::verify(const StepReport& report, double target_volume_before) const {
+  for (const Drop& drop : drops_) {
+    std::string defect = judge::defect(drop);
+    if (defect.empty() && !drop.velocities().allFinite()) defect = "a velocity is not finite";
+    if (!defect.empty())
+      throw SoundnessError(fmt::format("drop {} is unsound after step {}: {}", drop.id(), num_steps_, defect));
+  }
+  const double lost = target_volume_before + report.volume_added - target_volume();
+  if (report.deleted == 0 && std::abs(lost) > 1e-9 * target_volume_before)
+    throw SoundnessError(fmt::format("step {} lost {} of {} cm^3", num_steps_, lost, target_volume_before));
 }
 
 double Simulation::volume() const {

@@ -2,13 +2,14 @@
 #include "meniscus/simulation/step.h"
 
 #include "meniscus/core/error.h"
+#include "meniscus/geometry/rigid_motion.h"
 #include "meniscus/operators/contact_angle.h"
 #include "meniscus/operators/damping.h"
 #include "meniscus/operators/external_forces.h"
 #include "meniscus/operators/mean_curvature_flow.h"
 #include "meniscus/operators/tangential_damping.h"
 #include "meniscus/operators/volume_correction.h"
-#include "meniscus/topology/split.h"
+#include "step_parts.h"
 
 #include <fmt/format.h>
 
@@ -22,26 +23,6 @@ using Eigen::Vector3d;
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Adds up seconds by stage, if there is a clock.
-class StageClock {
- public:
-  StageClock(double (*clock)(), StepReport& report) : clock_(clock), report_(report), last_(clock ? clock() : 0) {}
-  void done(Stage stage) {
-    if (!clock_) return;
-    const double now = clock_();
-    report_.stage_seconds[static_cast<std::size_t>(stage)] += now - last_;
-    last_ = now;
-  }
-
- private:
-  double (*clock_)();
-  StepReport& report_;
-  double last_;
-};
-
-/// The radius of the ball of the drop's volume (cm).
-double ball_radius(const Drop& drop) { return std::cbrt(3 * drop.target_volume() / (4 * pi)); }
-
 /// c = 2 sigma/(rho R), cm^3/s^2: the acceleration that a mean curvature of 1/cm gives a drop whose
 /// lowest mode runs at Rayleigh's frequency; R = 3 V/A of the water-air surface.
 double tension_over_mass(const Drop& drop, const SurfaceGeometry& geometry, const Liquid& liquid) {
@@ -53,17 +34,35 @@ bool is_in_contact(const Drop& drop) {
   return drop.num_rows() > 0 && std::any_of(drop.contact(), drop.contact() + drop.num_rows(), is_colliding);
 }
 
-/// Whether gravity acts as a pressure: on a drop that a solid holds. In flight, and in Level::paper, it
-/// moves the vertices instead.
-bool gravity_is_pressure(const Drop& drop, const StepOptions& step) {
-  return step.level != Level::paper && step.liquid.surface_tension > 0 && is_in_contact(drop);
+/// From this Weber number rho v^2 D/sigma on, what comes from a source is a jet and no longer drips from it
+/// (Clanet and Lasheras 1999: about 4 where gravity matters little).
+constexpr double jet_weber = 4;
+
+/// Whether a drop is a jet: some source that it hangs from is running, faster than surface tension can hold back.
+/// Its vertices are then in free fall along it. Level::paper knows no Weber number.
+bool is_jet(const Drop& drop, const std::vector<Solid>& solids, double time, const StepOptions& step) {
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    const Solid& solid = solids[s];
+    if (!solid.inflow || !hangs_from(drop, static_cast<std::int32_t>(s))) continue;
+    const double speed = solid.inflow->speed_at(time), diameter = 2 * solid.inflow->radius;
+    if (speed == 0) continue;
+    if (step.level == Level::paper) return true;
+    if (step.liquid.density * speed * speed * diameter > jet_weber * step.liquid.surface_tension) return true;
+  }
+  return false;
+}
+
+/// Whether gravity acts as a pressure: on a drop that a solid holds. In flight, in a jet, and in Level::paper,
+/// it moves the vertices instead.
+bool gravity_is_pressure(const Drop& drop, bool jet, const StepOptions& step) {
+  return step.level != Level::paper && step.liquid.surface_tension > 0 && !jet && is_in_contact(drop);
 }
 
 /// What holds against the curvature at rest.
-BodyPressure body_pressure(const Drop& drop, const SurfaceGeometry& geometry, const StepOptions& step) {
+BodyPressure body_pressure(const Drop& drop, const SurfaceGeometry& geometry, bool jet, const StepOptions& step) {
   BodyPressure pressure;
   if (step.level == Level::paper) return pressure;
-  if (gravity_is_pressure(drop, step)) {
+  if (gravity_is_pressure(drop, jet, step)) {
     pressure.gradient = step.liquid.density / step.liquid.surface_tension * step.gravity;
     pressure.center = drop.positions().col(0);
   }
@@ -71,9 +70,9 @@ BodyPressure body_pressure(const Drop& drop, const SurfaceGeometry& geometry, co
   return pressure;
 }
 
-ExternalForcesOptions external_forces_options(const Drop& drop, const StepOptions& step) {
+ExternalForcesOptions external_forces_options(const Drop& drop, bool jet, const StepOptions& step) {
   ExternalForcesOptions options;
-  options.gravity = gravity_is_pressure(drop, step) ? Vector3d(Vector3d::Zero()) : step.gravity;
+  options.gravity = gravity_is_pressure(drop, jet, step) ? Vector3d(Vector3d::Zero()) : step.gravity;
   options.friction_per_step = step.level == Level::paper;
   options.no_slip = step.level != Level::paper;
   return options;
@@ -137,13 +136,6 @@ VolumeCorrectionOptions volume_options(const StepOptions& step, const Drop& drop
   return options;
 }
 
-RemeshOptions remesh_options(const StepOptions& step) {
-  RemeshOptions options;
-  options.band = step.band;
-  options.cut_necks = step.split;
-  return options;
-}
-
 /// At most this much of a drop's lowest mode's phase, sqrt(2), passes in one substep of Level::calibrated:
 /// (omega dt)^2 = 4 c dt^2/R^2 <= 2. Beyond, one implicit step of the flow would shrink the drop by half.
 constexpr double largest_phase_squared = 2;
@@ -184,14 +176,16 @@ int num_substeps(Drop& drop, const std::vector<Solid>& solids, double time, doub
 std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                           const StepOptions& options, Remesher& remesher, StepReport& report) {
   StageClock clock(options.clock, report);
+  const Eigen::Matrix3Xd before = std::as_const(drop).positions();
+  const bool jet = is_jet(drop, solids, time, options);
   const ExternalForcesReport forces =
-      apply_external_forces(drop, solids, time, dt, external_forces_options(drop, options));
+      apply_external_forces(drop, solids, time, dt, external_forces_options(drop, jet, options));
   clock.done(Stage::external_forces);
 
   SurfaceGeometry& geometry = drop.workspace().geometry;
   geometry.compute(std::as_const(drop).positions(), drop.connectivity());
   const double tension = tension_over_mass(drop, geometry, options.liquid);
-  const BodyPressure pressure = body_pressure(drop, geometry, options);
+  const BodyPressure pressure = body_pressure(drop, geometry, jet, options);
   clock.done(Stage::geometry);
 
   apply_damping(drop, geometry, dt, damping_options(options));
@@ -201,13 +195,15 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
   // correction will give it again, and the angle is off by as much: the line moves before.
   if (forces.colliding > 0)
     apply_contact_angle(drop, solids, geometry, time, dt, contact_angle_options(options, pressure, tension));
+  else
+    report.skip(Stage::contact_angle);
   clock.done(Stage::contact_angle);
 
   const SolveReport flow = flow_by_mean_curvature(drop, geometry, dt, flow_options(options, pressure, tension, dt));
   report.solver_iterations = std::max(report.solver_iterations, flow.iterations);
   clock.done(Stage::curvature_flow);
 
-  remove_tangential_deformation(drop, geometry, dt);
+  if (!jet) remove_tangential_deformation(drop, geometry, dt);
   clock.done(Stage::damping);
 
   const VolumeCorrectionReport volume = correct_volume(drop, geometry, dt, volume_options(options, drop));
@@ -221,29 +217,17 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
                     drop.id(), 1 + volume.relative_error));
   clock.done(Stage::volume_correction);
 
-  std::vector<Drop> pieces;
-  RemeshReport remeshed;
-  if (options.remesh) remeshed = remesher.remesh(drop, remesh_options(options));
-  report.edge_operations += remeshed.splits + remeshed.collapses + remeshed.flips + remeshed.lifts;
-  report.cuts += remeshed.cuts;
-  clock.done(Stage::remesh);
+  if (options.volume_correction == VolumeCorrectionMethod::none) report.skip(Stage::volume_correction);
 
-  if (remeshed.cuts > 0) {
-    SplitReport split;
-    pieces = split_components(std::move(drop), split);
-    report.deleted += split.deleted + split.deleted_empty;
-  } else {
-    pieces.push_back(std::move(drop));
-  }
-  clock.done(Stage::split);
-  return pieces;
+  return remesh_and_split(std::move(drop), before, options, remesher, clock, report);
 }
 
 }  // namespace
 
 const char* stage_name(Stage stage) {
-  constexpr const char* names[num_stages] = {"external_forces", "geometry",          "damping", "curvature_flow",
-                                             "contact_angle",   "volume_correction", "remesh",  "split"};
+  constexpr const char* names[num_stages] = {"external_forces", "geometry",      "damping",
+                                             "curvature_flow",  "contact_angle", "volume_correction",
+                                             "remesh",          "split",         "merge"};
   return names[static_cast<std::size_t>(stage)];
 }
 
@@ -254,6 +238,18 @@ StepReport& StepReport::operator+=(const StepReport& other) {
   cuts += other.cuts;
   deleted += other.deleted;
   limited_volume += other.limited_volume;
+  merges += other.merges;
+  folds += other.folds;
+  refused += other.refused;
+  taken_back += other.taken_back;
+  retries += other.retries;
+  overlap += other.overlap;
+  air += other.air;
+  rejected += other.rejected;
+  asleep += other.asleep;
+  asleep_triangles += other.asleep_triangles;
+  volume_added += other.volume_added;
+  for (std::size_t k = 0; k < num_stages; ++k) skipped[k] += other.skipped[k];
   substeps = std::max(substeps, other.substeps);
   solver_iterations = std::max(solver_iterations, other.solver_iterations);
   worst_volume_error = std::max(worst_volume_error, other.worst_volume_error);
@@ -262,20 +258,28 @@ StepReport& StepReport::operator+=(const StepReport& other) {
 
 std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                             const StepOptions& options, Remesher& remesher, StepReport& report) {
-  const int substeps = num_substeps(drop, solids, time, dt, options);
-  report.substeps = substeps;
-  std::vector<Drop> drops;
-  drops.push_back(std::move(drop));
-  for (int k = substeps - 1; k >= 0; --k) {
-    std::vector<Drop> next;
-    for (Drop& piece : drops)
-      for (Drop& part :
-           substep(std::move(piece), solids, time - k * (dt / substeps), dt / substeps, options, remesher, report))
-        next.push_back(std::move(part));
-    drops = std::move(next);
+  if (options.level == Level::pressure)
+    return step_by_pressure(std::move(drop), solids, time, dt, options, remesher, report);
+  int left = num_substeps(drop, solids, time, dt, options);
+  report.substeps = std::max(report.substeps, left);
+  const double part = dt / left, inflow = drop.inflow();
+  std::vector<Drop> pieces;
+  pieces.push_back(std::move(drop));
+  while (left > 0 && pieces.size() == 1) {
+    --left;
+    pieces.front().set_target_volume(pieces.front().target_volume() + inflow * part);
+    pieces = substep(std::move(pieces.front()), solids, time - left * part, part, options, remesher, report);
   }
-  for (const Drop& piece : drops) report.triangles += piece.mesh().number_of_faces();
-  return drops;
+  if (pieces.size() > 1) keep_inflow(pieces, solids, inflow);
+  if (left == 0 || pieces.empty()) {
+    for (const Drop& piece : pieces) report.triangles += piece.mesh().number_of_faces();
+    return pieces;
+  }
+  std::vector<Drop> all;  // a small piece needs shorter substeps than what it came from
+  for (Drop& piece : pieces)
+    for (Drop& part_of_it : step_drop(std::move(piece), solids, time, left * part, options, remesher, report))
+      all.push_back(std::move(part_of_it));
+  return all;
 }
 
 }  // namespace meniscus

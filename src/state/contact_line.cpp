@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace meniscus {
@@ -11,10 +12,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A face of three colliding vertices lies on the solid if it faces into it.
-bool is_wetted(const Contact* contact, std::uint32_t a, std::uint32_t b, const Vector3d& area_vector,
-               const Vector3d& solid_normal) {
-  return is_colliding(contact[a]) && is_colliding(contact[b]) && area_vector.dot(solid_normal) < 0;
+/// A face of three colliding vertices (v is one) lies on the solid if it faces into it: by the mean of its
+/// three normals, for on a face that reaches over an edge one alone may be at right angles to it.
+bool is_wetted(const Drop& drop, std::uint32_t v, std::uint32_t a, std::uint32_t b, const Vector3d& area_vector) {
+  const Contact* contact = drop.contact();
+  if (!is_colliding(contact[a]) || !is_colliding(contact[b])) return false;
+  const ConstColumns n = drop.contact_normals();
+  return area_vector.dot(n.col(v) + n.col(a) + n.col(b)) < 0;
 }
 
 /// The half cotangent sum that triangle (v, a, b) adds to L_vv: |b - a|^2 / (4 area).
@@ -24,35 +28,52 @@ double stiffness_of(const Vector3d& opposite_edge, double area) {
 
 }  // namespace
 
+void mark_contact_line(Drop& drop) {
+  Contact* contact = drop.contact();
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
+    if (contact[i] == Contact::free) continue;
+    const Ring ring = drop.connectivity().ring(i);
+    for (int k = 0; k < ring.degree; ++k)
+      if (contact[ring.neighbour[k]] == Contact::free) contact[i] = Contact::line;
+  }
+}
+
 std::optional<ContactLineVertex> contact_line_vertex(const Drop& drop, std::uint32_t v) {
   const ConstColumns x = drop.positions();
-  const Contact* contact = drop.contact();
   const Vector3d normal = drop.contact_normals().col(v), p = x.col(v);
   const Ring ring = drop.connectivity().ring(v);
   Vector3d wet_gradient = Vector3d::Zero(), air_gradient = Vector3d::Zero(), air_normal = Vector3d::Zero();
   ContactLineVertex line{};
+  const auto is_wet = [&](int k) {
+    const std::uint32_t a = ring.neighbour[k], b = ring.neighbour[k + 1 == ring.degree ? 0 : k + 1];
+    return is_wetted(drop, v, a, b, 0.5 * (x.col(a) - p).cross(x.col(b) - p));
+  };
+  std::array<Vector3d, 2> ends{p, p};  // the neighbours on the line: where wet faces end and begin
+  int num_ends = 0;
+  for (int k = 0, last = ring.degree - 1; k < ring.degree; last = k++)
+    if (is_wet(k) != is_wet(last) && num_ends++ < 2) ends[num_ends - 1] = x.col(ring.neighbour[k]);
   for (int k = 0; k < ring.degree; ++k) {
     const std::uint32_t a = ring.neighbour[k], b = ring.neighbour[k + 1 == ring.degree ? 0 : k + 1];
     const Vector3d opposite = x.col(b) - x.col(a);
     const Vector3d area_vector = 0.5 * (x.col(a) - p).cross(x.col(b) - p);
     const double area = area_vector.norm();
     if (!(area > 0)) continue;
-    const Vector3d gradient = 0.5 / area * area_vector.cross(opposite);  // of the face's area, at v
-    if (is_wetted(contact, a, b, area_vector, normal)) {
-      wet_gradient += gradient;
+    if (is_wet(k)) {
+      wet_gradient += 0.5 * opposite.cross(normal);  // of its area, at v, as far as it goes along the solid there
     } else {
-      air_gradient += gradient;
+      air_gradient += 0.5 / area * area_vector.cross(opposite);  // of its area, at v
       air_normal += area_vector;
       line.stiffness += stiffness_of(opposite, area);
     }
   }
-  wet_gradient -= wet_gradient.dot(normal) * normal;
   line.length = wet_gradient.norm();
   if (!(line.length > 0) || !(air_normal.norm() > 0)) return std::nullopt;
   line.outward = wet_gradient / line.length;
   line.angle = std::acos(std::clamp(air_normal.normalized().dot(normal), -1.0, 1.0));
   line.volume_gradient = air_normal.dot(line.outward) / 3;
   line.energy_cosine = air_gradient.dot(line.outward) / line.length;
+  line.middle = 0.5 * (ends[0] + ends[1]);
+  if (num_ends == 2) line.turn = std::atan2((p - ends[0]).cross(ends[1] - p).norm(), (p - ends[0]).dot(ends[1] - p));
   return line;
 }
 
@@ -76,7 +97,7 @@ double wetted_area(const Drop& drop) {
   for (const auto& [a, b, c] : drop.connectivity().triangles()) {
     if (a == Connectivity::removed || !is_colliding(contact[a])) continue;
     const Vector3d area_vector = 0.5 * (x.col(b) - x.col(a)).cross(x.col(c) - x.col(a));
-    if (is_wetted(contact, b, c, area_vector, drop.contact_normals().col(a))) area += area_vector.norm();
+    if (is_wetted(drop, a, b, c, area_vector)) area += area_vector.norm();
   }
   return area;
 }

@@ -45,11 +45,26 @@ Drop::Drop(Mesh mesh) : mesh_(std::move(mesh)) {
         fmt::format("the mesh encloses {} cm^3: its faces point inward; reverse their orientation", target_volume_));
 }
 
+Drop Drop::restored(Mesh mesh, const std::vector<std::uint32_t>& ring_starts) {
+  check_closed_and_finite(mesh);
+  if (ring_starts.size() != mesh.num_vertices())
+    throw GeometryError(fmt::format("{} starts of rings for {} vertices", ring_starts.size(), mesh.num_vertices()));
+  Drop drop;
+  drop.mesh_ = std::move(mesh);
+  drop.bind();
+  drop.connectivity_.rebuild(drop.mesh_);
+  for (const auto v : drop.mesh_.vertices()) drop.connectivity_.start_ring_at(v, ring_starts[v]);
+  return drop;
+}
+
 Drop::Drop(const Drop& other)
     : mesh_(other.mesh_),
       connectivity_(other.connectivity_),
       target_volume_(other.target_volume_),
       topology_version_(other.topology_version_),
+      flow_version_(other.flow_version_),
+      rest_time_(other.rest_time_),
+      inflow_(other.inflow_),
       id_(other.id_) {
   bind();
 }
@@ -65,7 +80,9 @@ void Drop::bind() {
   contact_normal_ = mesh_.add_property_map<VertexIndex, Vector>("v:contact_normal", Vector(0, 0, 0)).first;
   contact_ = mesh_.add_property_map<VertexIndex, Contact>("v:contact_state", Contact::free).first;
   contact_solid_ = mesh_.add_property_map<VertexIndex, std::int32_t>("v:contact_solid", -1).first;
+  seam_watch_ = mesh_.add_property_map<VertexIndex, std::uint8_t>("v:seam_watch", 0).first;
   poor_quality_ = mesh_.add_property_map<VertexIndex, std::uint8_t>("v:poor_quality", 0).first;
+  line_status_ = mesh_.add_property_map<VertexIndex, std::uint8_t>("v:line_status", 0).first;
 }
 
 bool Drop::collect_garbage(double share) {
@@ -75,6 +92,21 @@ bool Drop::collect_garbage(double share) {
   connectivity_.rebuild(mesh_);
   topology_changed();
   return true;
+}
+
+Eigen::AlignedBox3d bounding_box(const Drop& drop) {
+  const ConstColumns x = drop.positions();
+  Eigen::AlignedBox3d box;
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+    if (drop.connectivity().degree(i) > 0) box.extend(Eigen::Vector3d(x.col(i)));
+  return box;
+}
+
+bool hangs_from(const Drop& drop, std::int32_t solid) {
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+    if (is_colliding(drop.contact()[i]) && drop.contact_solid()[i] == solid && drop.connectivity().degree(i) > 0)
+      return true;
+  return false;
 }
 
 }  // namespace meniscus

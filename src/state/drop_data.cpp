@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/core/error.h"
+#include "meniscus/core/index_sets.h"
 #include "meniscus/state/drop.h"
 
 #include <fmt/format.h>
-#include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <sstream>
 
 namespace meniscus {
@@ -30,16 +29,14 @@ std::vector<std::int64_t> drop_labels(const MeshData& data) {
                    [](double value) { return std::llround(value); });
     return label;
   }
-  std::vector<std::size_t> parent(label.size()), rank(label.size(), 0);
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  boost::disjoint_sets<std::size_t*, std::size_t*> sets(rank.data(), parent.data());
+  IndexSets sets(label.size());
   for (const auto& [a, b, c] : data.triangles) {
-    sets.union_set(a, b);
-    sets.union_set(b, c);
+    sets.unite(a, b);
+    sets.unite(b, c);
   }
-  std::map<std::size_t, std::int64_t> number;  // by the first vertex of each component
-  for (std::size_t v = 0; v < label.size(); ++v)
-    label[v] = number.emplace(sets.find_set(v), static_cast<std::int64_t>(number.size())).first->second;
+  std::map<std::uint32_t, std::int64_t> number;  // by the first vertex of each component
+  for (std::uint32_t v = 0; v < label.size(); ++v)
+    label[v] = number.emplace(sets.find(v), static_cast<std::int64_t>(number.size())).first->second;
   return label;
 }
 

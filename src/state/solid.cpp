@@ -25,6 +25,16 @@ void check_finite(const char* what, const Vector3d& value) {
         fmt::format("a solid's {} is ({}, {}, {}); it must be finite", what, value.x(), value.y(), value.z()));
 }
 
+void check_edge_radius(double radius) {
+  if (!(radius >= 0) || !std::isfinite(radius))
+    throw UsageError(fmt::format("a solid's edge radius is {}; it must be finite and at least 0", radius));
+}
+
+/// Half the box of a disc across a unit axis.
+Vector3d disc_reach(const Vector3d& axis, double radius) {
+  return radius * (1 - axis.array().square()).max(0.0).sqrt();
+}
+
 /// The contact of a ball; `fallback` is the normal at its very centre.
 SolidContact ball_contact(const Vector3d& center, double radius, const Vector3d& x, const Vector3d& fallback) {
   const double r = (x - center).norm();
@@ -61,22 +71,24 @@ Solid Solid::sphere(const Vector3d& center, double radius) {
   return solid;
 }
 
-Solid Solid::box(const Vector3d& center, const Vector3d& size, const Eigen::Matrix3d& rotation) {
+Solid Solid::box(const Vector3d& center, const Vector3d& size, const Eigen::Matrix3d& rotation, double edge_radius) {
   check_finite("centre", center);
   for (const double side : {size.x(), size.y(), size.z()}) check_size("size", side);
   if (!rotation.isUnitary(1e-9) || !(rotation.determinant() > 0))
     throw UsageError("a solid box is turned by a matrix that is no rotation");
-  Solid solid(Box{center, 0.5 * size, rotation});
+  check_edge_radius(edge_radius);
+  Solid solid(Box{center, 0.5 * size, rotation, std::min(edge_radius, 0.5 * size.minCoeff())});
   solid.bounds_ = around(center, rotation.cwiseAbs() * (0.5 * size));
   return solid;
 }
 
-Solid Solid::cylinder(const Vector3d& a, const Vector3d& b, double radius) {
+Solid Solid::cylinder(const Vector3d& a, const Vector3d& b, double radius, double edge_radius) {
   const double length = (b - a).stableNorm();
   const Vector3d axis = unit_axis(a, b, length);
   check_size("radius", radius);
-  Solid solid(Cylinder{a, axis, length, radius});
-  const Vector3d reach = radius * (1 - axis.array().square()).max(0.0).sqrt();  // of a disc across the axis
+  check_edge_radius(edge_radius);
+  Solid solid(Cylinder{a, axis, length, radius, std::min({edge_radius, radius, 0.5 * length})});
+  const Vector3d reach = disc_reach(axis, radius);
   solid.bounds_ = around(a, reach).merged(around(b, reach));
   return solid;
 }
@@ -95,6 +107,18 @@ Solid Solid::mesh(const MeshData& data) {
   auto distance = std::make_shared<const TriangleMeshDistance>(data);
   Solid solid(TriangleMesh{distance});
   solid.bounds_ = distance->bounds();
+  return solid;
+}
+
+Solid Solid::disc(const Vector3d& center, const Vector3d& normal, double radius) {
+  check_finite("centre", center);
+  const double length = normal.stableNorm();
+  check_size("normal's length", length);
+  check_size("radius", radius);
+  const Vector3d unit = normal / length;
+  Solid solid(Disc{center, unit, radius});
+  const Vector3d reach = disc_reach(unit, radius);
+  solid.bounds_ = around(center, reach).merged(around(center - radius * unit, reach));
   return solid;
 }
 
@@ -164,10 +188,14 @@ SolidContact Solid::contact(const Sphere& sphere, const Vector3d& x) {
 
 SolidContact Solid::contact(const Box& box, const Vector3d& x) {
   const Vector3d local = box.rotation.transpose() * (x - box.center);
-  const Vector3d nearest = local.cwiseMax(-box.half_size).cwiseMin(box.half_size);
+  const Vector3d core = box.half_size.array() - box.edge_radius;  // the rounded box is a ball's sweep over it
+  const Vector3d nearest = local.cwiseMax(-core).cwiseMin(core);
   const double outside = (local - nearest).norm();
-  if (outside > 0)
-    return {outside, box.center + box.rotation * nearest, box.rotation * Vector3d((local - nearest) / outside)};
+  if (outside > 0) {
+    const Vector3d normal = (local - nearest) / outside;
+    const Vector3d point = nearest + box.edge_radius * normal;
+    return {outside - box.edge_radius, box.center + box.rotation * point, box.rotation * normal};
+  }
   Eigen::Index axis;  // of the nearest face; maxCoeff takes the first of equals
   const double distance = (local.cwiseAbs() - box.half_size).maxCoeff(&axis);
   const double side = local[axis] < 0 ? -1 : 1;
@@ -177,10 +205,10 @@ SolidContact Solid::contact(const Box& box, const Vector3d& x) {
 }
 
 SolidContact Solid::contact(const Cylinder& cylinder, const Vector3d& x) {
-  // In the plane through the axis and x, the cylinder is a rectangle.
+  // In the plane through the axis and x, the cylinder is a rectangle with rounded corners.
   const double along = (x - cylinder.start).dot(cylinder.axis);
   const Vector3d across = x - cylinder.start - along * cylinder.axis;
-  const double r = across.norm();
+  const double r = across.norm(), edge = cylinder.edge_radius;
   const Vector3d radial = r > 0 ? Vector3d(across / r) : cylinder.axis.unitOrthogonal();
   const double end = along < 0.5 * cylinder.length ? 0 : cylinder.length;  // the nearer end's place and normal
   const double end_side = end == 0 ? -1 : 1;
@@ -188,10 +216,12 @@ SolidContact Solid::contact(const Cylinder& cylinder, const Vector3d& x) {
   const auto at = [&](double height, double radius) -> Vector3d {
     return cylinder.start + height * cylinder.axis + radius * radial;
   };
-  if (beyond_side > 0 && beyond_end > 0) {  // nearest to the rim
-    const double distance = std::hypot(beyond_side, beyond_end);
-    const Vector3d normal = (beyond_side * radial + beyond_end * end_side * cylinder.axis) / distance;
-    return {distance, at(end, cylinder.radius), normal};
+  const double corner_side = beyond_side + edge, corner_end = beyond_end + edge;  // from the rounding's centre
+  if (corner_side > 0 && corner_end > 0) {                                        // nearest to the rim
+    const double outside = std::hypot(corner_side, corner_end);
+    const double out = corner_side / outside, up = corner_end / outside;
+    const Vector3d normal = out * radial + up * end_side * cylinder.axis;
+    return {outside - edge, at(end + end_side * edge * (up - 1), cylinder.radius + edge * (out - 1)), normal};
   }
   if (beyond_side >= beyond_end) return {beyond_side, at(along, cylinder.radius), radial};
   return {beyond_end, at(end, r), end_side * cylinder.axis};
@@ -203,5 +233,25 @@ SolidContact Solid::contact(const Capsule& capsule, const Vector3d& x) {
 }
 
 SolidContact Solid::contact(const TriangleMesh& mesh, const Vector3d& x) { return mesh.distance->query(x); }
+
+SolidContact Solid::contact(const Disc& disc, const Vector3d& x) {
+  const double above = (x - disc.center).dot(disc.normal);
+  const Vector3d foot = x - above * disc.normal, across = foot - disc.center;
+  const double r = across.norm();
+  constexpr double rounding = 1e-9;
+  if (r <= (1 + rounding) * disc.radius) return {above < -disc.radius ? -above : above, foot, disc.normal};
+  const Vector3d rim = disc.center + disc.radius / r * across;
+  const double distance = (x - rim).norm();
+  return {distance, rim, (x - rim) / distance};
+}
+
+Vector3d Solid::rim_point(const Vector3d& x, double time) const {
+  const Vector3d nearest = query(x, time).point;
+  const auto* disc = std::get_if<Disc>(&shape_);
+  if (!disc) return nearest;
+  const Vector3d center = disc->center + offset(time), across = nearest - center;
+  const double r = across.norm();
+  return r > 2.0 / 3 * disc->radius ? Vector3d(center + disc->radius / r * across) : nearest;
+}
 
 }  // namespace meniscus

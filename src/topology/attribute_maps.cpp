@@ -27,39 +27,61 @@ bool is_internal(const std::string& name) {
   return name == "v:point" || name == "v:connectivity" || name == "v:removed";
 }
 
+/// A map's value at a point of a face.
 template <class T>
-bool gather_if_of_type(const Mesh& from, Mesh& to, const std::string& name,
-                       const std::vector<AttributeSource>& sources) {
+T value_at(const Mesh::Property_map<VertexIndex, T>& map, const AttributeSource& source) {
+  const auto& [v, w] = source;
+  if constexpr (std::is_floating_point_v<T>)
+    return static_cast<T>(double{map[v[0]]} + w[1] * (double{map[v[1]]} - double{map[v[0]]}) +
+                          w[2] * (double{map[v[2]]} - double{map[v[0]]}));
+  else if constexpr (std::is_same_v<T, Vector>)
+    return map[v[0]] + w[1] * (map[v[1]] - map[v[0]]) + w[2] * (map[v[2]] - map[v[0]]);
+  else
+    return map[v[w[0] >= w[1] ? (w[0] >= w[2] ? 0 : 2) : (w[1] >= w[2] ? 1 : 2)]];
+}
+
+enum class Gather { replace, blend };
+
+template <class T>
+bool gather_if_of_type(const Mesh& from, Mesh& to, const std::string& name, const std::vector<AttributeSource>& sources,
+                       std::size_t first_row, Gather how) {
   const auto found = from.property_map<VertexIndex, T>(name);
   if (!found.second) return false;
-  const auto& old = found.first;
   auto map = to.add_property_map<VertexIndex, T>(name).first;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const auto& [v, w] = sources[i];
-    T& value = map[VertexIndex(static_cast<Mesh::size_type>(i))];
-    if constexpr (std::is_floating_point_v<T>)
-      value = static_cast<T>(double{old[v[0]]} + w[1] * (double{old[v[1]]} - double{old[v[0]]}) +
-                             w[2] * (double{old[v[2]]} - double{old[v[0]]}));
+    T& value = map[VertexIndex(static_cast<Mesh::size_type>(first_row + i))];
+    if (how == Gather::replace)
+      value = value_at(found.first, sources[i]);
+    else if constexpr (std::is_floating_point_v<T>)
+      value = static_cast<T>(0.5 * (double{value} + double{value_at(found.first, sources[i])}));
     else if constexpr (std::is_same_v<T, Vector>)
-      value = old[v[0]] + w[1] * (old[v[1]] - old[v[0]]) + w[2] * (old[v[2]] - old[v[0]]);
-    else
-      value = old[v[w[0] >= w[1] ? (w[0] >= w[2] ? 0 : 2) : (w[1] >= w[2] ? 1 : 2)]];
+      value = 0.5 * (value + value_at(found.first, sources[i]));
   }
   return true;
 }
 
 template <class... T>
-void gather_all(const Mesh& from, Mesh& to, const std::string& name, const std::vector<AttributeSource>& sources) {
-  (gather_if_of_type<T>(from, to, name, sources) || ...);
+void gather_one(const Mesh& from, Mesh& to, const std::string& name, const std::vector<AttributeSource>& sources,
+                std::size_t first_row, Gather how) {
+  (gather_if_of_type<T>(from, to, name, sources, first_row, how) || ...);
+}
+
+void gather_all(const Mesh& from, Mesh& to, const std::vector<AttributeSource>& sources, std::size_t first_row,
+                Gather how) {
+  for (const auto& name : from.properties<VertexIndex>())
+    if (!is_internal(name))
+      gather_one<double, float, Vector, std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
+                 std::uint32_t, std::int64_t, std::uint64_t, Contact>(from, to, name, sources, first_row, how);
 }
 
 }  // namespace
 
-void gather_attributes(const Mesh& from, Mesh& to, const std::vector<AttributeSource>& sources) {
-  for (const auto& name : from.properties<VertexIndex>())
-    if (!is_internal(name))
-      gather_all<double, float, Vector, std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
-                 std::uint32_t, std::int64_t, std::uint64_t, Contact>(from, to, name, sources);
+void gather_attributes(const Mesh& from, Mesh& to, const std::vector<AttributeSource>& sources, std::size_t first_row) {
+  gather_all(from, to, sources, first_row, Gather::replace);
+}
+
+void blend_attributes(const Mesh& from, Mesh& to, const std::vector<AttributeSource>& sources, std::size_t first_row) {
+  gather_all(from, to, sources, first_row, Gather::blend);
 }
 
 void AttributeMaps::clear() {

@@ -43,8 +43,13 @@ struct AttributeSource {
 };
 inline AttributeSource same_as(VertexIndex v) { return {{v, v, v}, {1, 0, 0}}; }
 
-/// Gives `to` every map that AttributeMaps knows of `from`: vertex i takes sources[i]; integers and
-/// contact states from the corner of greatest weight.
-void gather_attributes(const Mesh& from, Mesh& to, const std::vector<AttributeSource>& sources);
+/// Gives `to` every map that AttributeMaps knows of `from`: vertex first_row + i takes sources[i];
+/// integers and contact states from the corner of greatest weight.
+void gather_attributes(const Mesh& from, Mesh& to, const std::vector<AttributeSource>& sources,
+                       std::size_t first_row = 0);
+
+/// The same for vertices that have attributes already: numbers and vectors become the mean of both,
+/// integers and contact states stay.
+void blend_attributes(const Mesh& from, Mesh& to, const std::vector<AttributeSource>& sources, std::size_t first_row);
 
 }  // namespace meniscus

@@ -116,7 +116,9 @@ bool FaceCutter::place_border() {
     if (place != Place::unknown) now = place;  // of the last one: the first corner's
   if (now == Place::unknown) {                 // no crossing: only closed curves inside
     Place& known = cut_.place[face_[0]];
-    if (known == Place::unknown) known = is_inside(other_, point_at(own_, face_[0])) ? Place::inside : Place::outside;
+    const bool is_self = &own_.triangles == &other_.triangles;  // its own vertices are not inside it
+    if (known == Place::unknown)
+      known = !is_self && is_inside(other_, point_at(own_, face_[0])) ? Place::inside : Place::outside;
     now = known;
   }
   for (std::size_t k = 0; k < n; ++k) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "boolean_cut.h"
+#include "meniscus/core/index_sets.h"
 #include "meniscus/geometry/self_intersection.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace meniscus::boolean_parts {
 namespace {
@@ -20,23 +20,6 @@ struct Side {
   CutFaces cut;
 };
 
-/// Sets of vertices joined by uncut faces, each on one side of the other surface.
-class VertexSets {
- public:
-  explicit VertexSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t find(std::uint32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void unite(std::uint32_t u, std::uint32_t v) {
-    u = find(u), v = find(v);
-    if (u != v) parent_[std::max(u, v)] = std::min(u, v);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 /// Calls visit(face) for the faces of `common` that were not cut. Both lists ascend.
 template <class Visit>
 void for_each_uncut(const Side& side, Visit visit) {
@@ -51,7 +34,8 @@ void for_each_uncut(const Side& side, Visit visit) {
 /// the other's box is outside, and of a set that nothing tells about one vertex is tested. False on
 /// a contradiction.
 bool place_vertices(Side& side, const Eigen::AlignedBox3d& other_box) {
-  VertexSets sets(static_cast<std::size_t>(side.own.points.cols()));
+  // sets of vertices joined by uncut faces lie on one side of the other surface
+  IndexSets sets(static_cast<std::size_t>(side.own.points.cols()));
   auto& place = side.cut.place;
   for_each_uncut(side, [&](std::uint32_t f) {
     const Triangle& t = side.own.triangles[f];

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "boolean_parts.h"
 
+#include "meniscus/core/index_sets.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <numeric>
 
 namespace meniscus::boolean_parts {
 namespace {
@@ -30,52 +31,12 @@ bool ray_crosses(const Point& a, const Point& b, const Point& c, const Point& p)
 
 /// The component of each row, by vertices that triangles join; named by its smallest row.
 std::vector<std::uint32_t> components_of(const BooleanResult& result) {
-  std::vector<std::uint32_t> parent(result.points.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto find = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  IndexSets sets(result.points.size());
   for (const auto& t : result.triangles)
-    for (int k = 0; k < 2; ++k) {
-      const std::uint32_t u = find(t[k]), v = find(t[k + 1]);
-      if (u != v) parent[std::max(u, v)] = std::min(u, v);
-    }
-  for (std::uint32_t v = 0; v < parent.size(); ++v) parent[v] = find(v);
-  return parent;
-}
-
-/// Keeps the rows and triangles of which `is_kept` says so of their component.
-void keep_components(BooleanResult& result, const std::vector<std::uint32_t>& component,
-                     const std::vector<bool>& is_kept) {
-  std::vector<std::uint32_t> row(result.points.size());
-  const BooleanResult old = result;
-  result.points.clear();
-  result.triangles.clear();
-  result.kept_a.clear();
-  result.kept_b.clear();
-  result.seam.clear();
-  result.whole_a = result.whole_b = 0;
-  for (std::uint32_t v = 0; v < row.size(); ++v) {
-    if (!is_kept[component[v]]) continue;
-    row[v] = static_cast<std::uint32_t>(result.points.size());
-    result.points.push_back(old.points[v]);
-    if (v < old.kept_a.size())
-      result.kept_a.push_back(old.kept_a[v]);
-    else if (v < old.first_seam_row())
-      result.kept_b.push_back(old.kept_b[v - old.kept_a.size()]);
-    else
-      result.seam.push_back(old.seam[v - old.first_seam_row()]);
-  }
-  for (std::size_t t = 0; t < old.triangles.size(); ++t) {
-    const Triangle& triangle = old.triangles[t];
-    if (!is_kept[component[triangle[0]]]) continue;
-    result.triangles.push_back({row[triangle[0]], row[triangle[1]], row[triangle[2]]});
-    if (t < old.whole_a)
-      ++result.whole_a;
-    else if (t < old.whole_a + old.whole_b)
-      ++result.whole_b;
-  }
+    for (int k = 0; k < 2; ++k) sets.unite(t[k], t[k + 1]);
+  std::vector<std::uint32_t> component(result.points.size());
+  for (std::uint32_t v = 0; v < component.size(); ++v) component[v] = sets.find(v);
+  return component;
 }
 
 Eigen::Vector3d at(const BooleanResult& result, std::uint32_t v) {
@@ -138,6 +99,37 @@ SurfacePoint surface_point(const MeshView& view, const Triangle& t, const Eigen:
   return {t, {1 - s - r, s, r}};
 }
 
+void keep_rows(BooleanResult& result, const std::vector<bool>& is_kept) {
+  std::vector<std::uint32_t> row(result.points.size());
+  const BooleanResult old = result;
+  result.points.clear();
+  result.triangles.clear();
+  result.kept_a.clear();
+  result.kept_b.clear();
+  result.seam.clear();
+  result.whole_a = result.whole_b = 0;
+  for (std::uint32_t v = 0; v < row.size(); ++v) {
+    if (!is_kept[v]) continue;
+    row[v] = static_cast<std::uint32_t>(result.points.size());
+    result.points.push_back(old.points[v]);
+    if (v < old.kept_a.size())
+      result.kept_a.push_back(old.kept_a[v]);
+    else if (v < old.first_seam_row())
+      result.kept_b.push_back(old.kept_b[v - old.kept_a.size()]);
+    else
+      result.seam.push_back(old.seam[v - old.first_seam_row()]);
+  }
+  for (std::size_t t = 0; t < old.triangles.size(); ++t) {
+    const Triangle& triangle = old.triangles[t];
+    if (!is_kept[triangle[0]] || !is_kept[triangle[1]] || !is_kept[triangle[2]]) continue;
+    result.triangles.push_back({row[triangle[0]], row[triangle[1]], row[triangle[2]]});
+    if (t < old.whole_a)
+      ++result.whole_a;
+    else if (t < old.whole_a + old.whole_b)
+      ++result.whole_b;
+  }
+}
+
 void drop_cavities(BooleanResult& result) {
   const std::vector<std::uint32_t> component = components_of(result);
   std::vector<double> six(result.points.size(), 0);
@@ -153,7 +145,7 @@ void drop_cavities(BooleanResult& result) {
     all = all && is_kept[v];
   }
   if (all) return;
-  keep_components(result, component, is_kept);
+  keep_rows(result, is_kept);
   result.volume = volume_of(view_of(result));
 }
 

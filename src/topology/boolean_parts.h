@@ -33,6 +33,9 @@ std::optional<BooleanResult> corefine(const MeshView& a, const MeshView& b, Bool
 /// Whether the new triangles of a result have areas and meet neither each other nor those near them.
 bool is_sound_at_seam(const BooleanResult& result, const std::vector<std::uint32_t>& near);
 
+/// Drops rows of a result, and the triangles that hold one of them.
+void keep_rows(BooleanResult& result, const std::vector<bool>& is_kept);
+
 /// Drops the components of a result that enclose negative volume.
 void drop_cavities(BooleanResult& result);
 

@@ -118,14 +118,16 @@ Refusal would_harm_star(const RemeshState& state, VertexIndex v, VertexIndex oth
     const Eigen::Vector3d n_old = (p - x_old).cross(q - x_old), n_new = (p - x).cross(q - x);
     const double old_norm = n_old.norm(), new_norm = n_new.norm(), rim2 = (q - p).squaredNorm();
     const bool becomes_flat = becomes_colliding && state.colliding(vp) && state.colliding(vq);
-    const Eigen::Vector3d normal = becomes_flat && state.colliding(v) ? Eigen::Vector3d(-solid_normal) : outward;
+    const Eigen::Vector3d face_normal =
+        becomes_flat ? Eigen::Vector3d(solid_normal + state.contact_normal(vp) + state.contact_normal(vq)) : outward;
+    const Eigen::Vector3d normal = becomes_flat && state.colliding(v) ? Eigen::Vector3d(-face_normal) : outward;
     const double xp2 = (p - x).squaredNorm(),
                  old_longest2 = std::max({rim2, (p - x_old).squaredNorm(), (q - x_old).squaredNorm()});
     const double new_longest2 = std::max({rim2, xp2, (q - x).squaredNorm()});
     const bool was_folded = n_old.dot(normal) < 0, was_thin = was_folded || old_norm < thin * old_longest2;
     const double turn = was_folded ? n_new.dot(normal) : n_new.dot(n_old) / old_norm;  // cosine times new_norm
     const double weight = becomes_flat ? state.options.band.wetted_weight : 1;
-    if (becomes_flat && would_not_face_solid(n_new, solid_normal))
+    if (becomes_flat && would_not_face_solid(n_new, face_normal))
       refusal = Refusal::contact_line;
     else if (!(turn > bound * new_norm) && !(was_thin && turn >= 0))
       refusal = Refusal::would_invert;
@@ -168,7 +170,9 @@ Refusal would_harm(const RemeshState& state, HalfedgeIndex h, Target target) {
   normals.clear();
   auto refusal = would_harm_star(state, a, b, x, becomes_colliding, normals);
   if (refusal == Refusal::none) refusal = would_harm_star(state, b, a, x, becomes_colliding, normals);
-  return refusal == Refusal::none && would_fold(normals) ? Refusal::would_invert : refusal;
+  if (refusal == Refusal::none && would_fold(normals)) refusal = Refusal::would_invert;
+  if (refusal == Refusal::none && state.collapse_would_meet(a, b, x)) refusal = Refusal::near_intersection;
+  return refusal;
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ bool would_disturb_contact_line(const RemeshState& state, HalfedgeIndex h) {
   // Both new faces must face the solid, or the edge would no longer lie inside the wetted area.
   const auto faces_solid = [&](VertexIndex v, VertexIndex first, VertexIndex second) {
     const Eigen::Vector3d x = state.point(v);
-    return (state.point(first) - x).cross(state.point(second) - x).dot(state.contact_normal(first)) < 0 &&
-           (state.point(first) - x).cross(state.point(second) - x).dot(state.contact_normal(second)) < 0;
+    const Eigen::Vector3d n = state.contact_normal(v) + state.contact_normal(first) + state.contact_normal(second);
+    return (state.point(first) - x).cross(state.point(second) - x).dot(n) < 0;
   };
   return !faces_solid(mesh.source(h), p, o) || !faces_solid(mesh.target(h), o, p);
 }
@@ -52,6 +52,17 @@ bool would_change_shape(const RemeshState& state, HalfedgeIndex h) {
   return points_away(at_a) || points_away(at_b);
 }
 
+/// The two faces at the other diagonal meet another sheet.
+bool would_meet_sheet(const RemeshState& state, HalfedgeIndex h) {
+  if (!state.scratch.guard) return false;
+  const Mesh& mesh = state.mesh;
+  const auto back = mesh.opposite(h);
+  const auto a = mesh.source(h), b = mesh.target(h), o = state.apex(h), p = state.apex(back);
+  state.scratch.new_faces = {{{a, p, o}, {state.point(a), state.point(p), state.point(o)}},
+                             {{b, o, p}, {state.point(b), state.point(o), state.point(p)}}};
+  return state.would_meet_sheet({}, {mesh.face(h), mesh.face(back)});
+}
+
 }  // namespace
 
 Refusal try_flip(RemeshState& state, HalfedgeIndex h) {
@@ -68,6 +79,7 @@ Refusal try_flip(RemeshState& state, HalfedgeIndex h) {
   if (state.is_long(length2_new) || state.is_short(length2_new)) return Refusal::would_be_long;
   if (!state.scratch.forbidden.empty() && state.is_forbidden(0.5 * (state.point(a) + state.point(b))))
     return Refusal::near_intersection;
+  if (would_meet_sheet(state, h)) return Refusal::near_intersection;
 
   CGAL::Euler::flip_edge(h, mesh);
   for (const auto v : {a, b, o, p}) state.update(v);

@@ -94,6 +94,7 @@ Refusal try_split(RemeshState& state, HalfedgeIndex h) {
     m = curved_midpoint(state, a, b);
     if (would_fold_at(state, h, m) || would_fold_at(state, mesh.opposite(h), m)) m = middle;
     m = off_the_solid(state, a, b, m);
+    if (m != middle && state.split_would_meet(h, m)) m = middle;
   }
   split_at(state, h, m, contact);
   return Refusal::none;

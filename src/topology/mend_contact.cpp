@@ -53,6 +53,7 @@ bool join_a_neighbour(RemeshState& state, VertexIndex v, const Lie& now) {
       if (state.on_line(target) != is_line) continue;
       const Lie lie = lie_with_vertex_at(state, v, target, state.point(target));
       if (!lie.is_better_than(best_lie) || !is_collapse_ok(state, h)) continue;
+      if (state.collapse_would_meet(target, v, state.point(target))) continue;
       best = h;
       best_lie = lie;
     }
@@ -67,6 +68,8 @@ void mark_moved(RemeshState& state, VertexIndex v) {
   state.scratch.changed.push_back(v);
   for (int k = 0; k < r.degree; ++k) state.scratch.changed.emplace_back(r.neighbour[k]);
   state.queue_ring(v);
+  if (state.scratch.guard)
+    for (int k = 0; k < r.degree; ++k) state.scratch.guard->add(r.corner[k] / 3);
   ++state.report.lifts;
 }
 
@@ -78,6 +81,7 @@ bool move_to_middle(RemeshState& state, VertexIndex v, const Lie& now) {
   for (int k = 0; k < r.degree; ++k) step += (state.point(VertexIndex(r.neighbour[k])) - x) / r.degree;
   step -= step.dot(n) * n;
   if (!lie_with_vertex_at(state, v, Mesh::null_vertex(), x + step).is_better_than(now)) return false;
+  if (state.star_would_meet(v, x + step)) return false;
   state.mesh.point(v) = to_point(x + step);
   mark_moved(state, v);
   return true;
@@ -90,14 +94,17 @@ bool unfold_at(RemeshState& state, VertexIndex v) {
   return join_a_neighbour(state, v, now) || move_to_middle(state, v, now);
 }
 
-void lift_off(RemeshState& state, VertexIndex v) {
+bool lift_off(RemeshState& state, VertexIndex v) {
   const double height = lift_in_edges * state.options.band.edge_min;
-  state.mesh.point(v) = to_point(state.point(v) + height * state.contact_normal(v));
+  const Eigen::Vector3d x = state.point(v) + height * state.contact_normal(v);
+  if (state.star_would_meet(v, x)) return false;
+  state.mesh.point(v) = to_point(x);
   state.drop.contact()[v] = Contact::free;
   state.drop.contact_solid()[v] = -1;
   const Ring r = state.ring(v);
   for (int k = 0; k < r.degree; ++k) state.update_contact(VertexIndex(r.neighbour[k]));
   mark_moved(state, v);
+  return true;
 }
 
 /// The film's longest edge with air on both sides; null if there is none.
@@ -119,17 +126,15 @@ HalfedgeIndex inner_edge(const RemeshState& state, HalfedgeIndex film) {
 /// and leaves the solid; else an inner edge gets a vertex above the solid.
 bool lift_film(RemeshState& state, HalfedgeIndex film) {
   for (const auto v : CGAL::vertices_around_face(film, state.mesh))
-    if (!has_wet_face(state, v)) {
-      lift_off(state, v);
-      return true;
-    }
+    if (!has_wet_face(state, v)) return lift_off(state, v);
   const auto h = inner_edge(state, film);
   if (h == Mesh::null_halfedge()) return false;
   const auto a = state.mesh.source(h), b = state.mesh.target(h);
   const Eigen::Vector3d n = (state.contact_normal(a) + state.contact_normal(b)).stableNormalized();
   const Eigen::Vector3d middle = 0.5 * (state.point(a) + state.point(b));
-  if (state.is_forbidden(middle)) return false;
-  split_at(state, h, middle + lift_in_edges * state.options.band.edge_min * n, Contact::free);
+  const Eigen::Vector3d lifted = middle + lift_in_edges * state.options.band.edge_min * n;
+  if (state.is_forbidden(middle) || state.split_would_meet(h, lifted)) return false;
+  split_at(state, h, lifted, Contact::free);
   return true;
 }
 

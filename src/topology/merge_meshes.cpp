@@ -2,6 +2,7 @@
 #include "meniscus/topology/merge_meshes.h"
 
 #include "meniscus/core/error.h"
+#include "meniscus/core/index_sets.h"
 #include "meniscus/geometry/inspect.h"
 
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace meniscus {
 namespace {
@@ -54,23 +54,18 @@ void unify_drops(MeshData& data) {
   const auto drop =
       std::find_if(data.attributes.begin(), data.attributes.end(), [](const auto& a) { return a.name == "drop"; });
   if (drop == data.attributes.end()) return;
-  std::vector<std::uint32_t> parent(data.points.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto find = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  IndexSets sets(data.points.size());
   for (const auto& t : data.triangles)
-    for (int k = 0; k < 2; ++k) parent[find(t[k + 1])] = find(t[k]);
-  std::vector<double> least(parent.size(), std::numeric_limits<double>::infinity());
-  for (std::uint32_t v = 0; v < parent.size(); ++v) {
-    double& value = least[find(v)];
+    for (int k = 0; k < 2; ++k) sets.unite(t[k], t[k + 1]);
+  std::vector<double> least(data.points.size(), std::numeric_limits<double>::infinity());
+  for (std::uint32_t v = 0; v < least.size(); ++v) {
+    double& value = least[sets.find(v)];
     value = std::min(value, drop->values[v]);
   }
-  for (std::uint32_t v = 0; v < parent.size(); ++v) drop->values[v] = least[find(v)];
+  for (std::uint32_t v = 0; v < least.size(); ++v) drop->values[v] = least[sets.find(v)];
 }
 
-void add(const BooleanResult& result, MergeReport& report) {
+void add(const BooleanResult& result, MeshMergeReport& report) {
   ++report.joins;
   if (result.step != BooleanStep::apart) ++report.crossings;
   report.retries += result.retries;
@@ -86,7 +81,7 @@ struct Part {
 };
 
 std::optional<MeshData> join(const Part& a, const Part& b, BooleanOperation operation, const BooleanOptions& options,
-                             MergeReport& report) {
+                             MeshMergeReport& report) {
   BooleanResult result = boolean(view_of(a.mesh), view_of(b.mesh), operation, options);
   if (!result.ok()) {
     report.outcome = BooleanOutcome::refused;
@@ -103,7 +98,7 @@ std::optional<MeshData> join(const Part& a, const Part& b, BooleanOperation oper
 
 /// Joins neighbours until one is left.
 std::optional<Part> join_all(std::vector<Part> parts, BooleanOperation operation, const BooleanOptions& options,
-                             MergeReport& report) {
+                             MeshMergeReport& report) {
   while (parts.size() > 1) {
     std::vector<Part> joined;
     for (std::size_t k = 0; k + 1 < parts.size(); k += 2) {
@@ -135,7 +130,7 @@ void fill_cut(const BooleanResult& result, MeshData& part) {
 
 /// merge_meshes of meshes that are known to be sound.
 std::optional<MeshData> merge_sound(const std::vector<MeshData>& meshes, BooleanOperation operation,
-                                    const BooleanOptions& options, MergeReport& report) {
+                                    const BooleanOptions& options, MeshMergeReport& report) {
   report = {};
   std::vector<Part> parts;
   for (std::size_t k = 0; k < meshes.size(); ++k) parts.push_back({meshes[k], k});
@@ -155,7 +150,7 @@ std::optional<MeshData> merge_sound(const std::vector<MeshData>& meshes, Boolean
 }  // namespace
 
 std::optional<MeshData> merge_meshes(const std::vector<MeshData>& meshes, BooleanOperation operation,
-                                     const BooleanOptions& options, MergeReport& report) {
+                                     const BooleanOptions& options, MeshMergeReport& report) {
   if (meshes.empty()) throw UsageError("merge: give at least one mesh");
   if (!options.inputs_are_sound)
     for (const auto& mesh : meshes) require_sound(mesh);
@@ -178,7 +173,7 @@ void require_sound(const MeshData& mesh) {
 }
 
 std::optional<std::pair<MeshData, MeshData>> divide(const MeshData& mesh, const MeshData& cutter,
-                                                    const BooleanOptions& options, MergeReport& report) {
+                                                    const BooleanOptions& options, MeshMergeReport& report) {
   report = {};
   require_sound(mesh);
   require_sound(cutter);

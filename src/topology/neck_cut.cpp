@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cut_cycle.h"
+#include "merge_parts.h"
 #include "remesh_state.h"
 
 #include <algorithm>
@@ -66,6 +67,54 @@ Eigen::Vector3d step_to_own_side(const RemeshState& state, VertexIndex v, const 
                   : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
+/// At most this many faces on one side of a cycle are a spike.
+constexpr std::size_t most_spike_faces = 16;
+
+/// Whether a cycle is no neck between two bodies of liquid but goes around a tunnel of air, or cuts off a spike.
+bool is_tunnel_or_spike(const Mesh& mesh, const std::array<HalfedgeIndex, 3>& cycle) {
+  const auto is_on_cycle = [&](HalfedgeIndex h) {
+    return std::any_of(cycle.begin(), cycle.end(), [&](HalfedgeIndex c) { return c == h || mesh.opposite(c) == h; });
+  };
+  std::vector<bool> is_seen(mesh.num_faces(), false);
+  std::vector<FaceIndex> side{mesh.face(cycle[0])};
+  is_seen[side[0]] = true;
+  for (std::size_t k = 0; k < side.size(); ++k)
+    for (const auto h : CGAL::halfedges_around_face(mesh.halfedge(side[k]), mesh)) {
+      const auto beyond = mesh.face(mesh.opposite(h));
+      if (is_on_cycle(h) || is_seen[beyond]) continue;
+      is_seen[beyond] = true;
+      side.push_back(beyond);
+    }
+  if (is_seen[mesh.face(mesh.opposite(cycle[0]))]) return true;
+  return std::min(side.size(), mesh.number_of_faces() - side.size()) <= most_spike_faces;
+}
+
+/// Near a seam, faces about the vertices of a cap that would meet another sheet if these moved so: they stay.
+void stay_if_sheets_meet(RemeshState& state, const std::array<VertexIndex, 3>& cap,
+                         const std::array<VertexIndex, 3>& other, Eigen::Vector3d* steps) {
+  if (!state.scratch.guard) return;
+  auto& faces = state.scratch.new_faces;
+  faces.clear();
+  const auto moved = [&](std::uint32_t v) {
+    const auto at = std::find(cap.begin(), cap.end(), VertexIndex(v));
+    const Eigen::Vector3d x = state.point(VertexIndex(v));
+    return at == cap.end() ? x : Eigen::Vector3d(x + steps[at - cap.begin()]);
+  };
+  std::vector<std::uint32_t> around;
+  for (const auto v : cap) {
+    const Ring r = state.ring(v);
+    for (int k = 0; k < r.degree; ++k) around.push_back(r.corner[k] / 3);
+  }
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  for (const auto f : around) {
+    const auto& t = state.connectivity.triangles()[f];
+    faces.push_back({t, {moved(t[0]), moved(t[1]), moved(t[2])}});
+  }
+  if (state.would_meet_sheet({cap[0], cap[1], cap[2], other[0], other[1], other[2]}, {}))
+    std::fill(steps, steps + 3, Eigen::Vector3d::Zero());
+}
+
 void cut(RemeshState& state, const std::vector<HalfedgeIndex>& cycle) {
   Mesh& mesh = state.mesh;
   if (!state.scratch.attributes.is_bound()) state.scratch.attributes.bind(mesh);
@@ -96,6 +145,8 @@ void cut(RemeshState& state, const std::vector<HalfedgeIndex>& cycle) {
     steps[i] = step_to_own_side(state, left[i], left, length);
     steps[3 + i] = step_to_own_side(state, right[i], right, length);
   }
+  stay_if_sheets_meet(state, left, right, steps.data());
+  stay_if_sheets_meet(state, right, left, steps.data() + 3);
   for (std::size_t i = 0; i < 3; ++i) {
     mesh.point(left[i]) = to_point(state.point(left[i]) + steps[i]);
     mesh.point(right[i]) = to_point(state.point(right[i]) + steps[3 + i]);
@@ -134,6 +185,10 @@ Refusal try_cut(RemeshState& state, HalfedgeIndex h) {
   }
   if (!std::isfinite(best)) return Refusal::link_condition;
   cycle.assign(chosen.begin(), chosen.end());
+  const bool is_of_seam = std::any_of(chosen.begin(), chosen.end(), [&](HalfedgeIndex c) {
+    return state.drop.seam_watch()[mesh.target(c)] > violent_watched_calls;
+  });
+  if (is_of_seam && !is_tunnel_or_spike(state.mesh, chosen)) return Refusal::link_condition;  // it is to grow
   cut(state, cycle);
   return Refusal::none;
 }

@@ -45,11 +45,17 @@ HalfedgeIndex halfedge_from(const Mesh& mesh, FaceIndex f, std::uint32_t source)
   return h;
 }
 
+/// The square of the length from which on an edge may have to be split.
+double least_long_edge2(const EdgeBand& band) {
+  const double length = band.edge_max / band.refinement;
+  return length * length;
+}
+
 /// Queues each edge that needs it once: from the face in which it runs to the larger index.
 void inspect_face(RemeshState& state, FaceIndex f, const Sides& sides, bool is_wet) {
   const auto& t = state.connectivity.triangles()[f];
   const double low2 = state.options.band.edge_min * state.options.band.edge_min;
-  const double high2 = state.options.band.edge_max * state.options.band.edge_max;
+  const double high2 = least_long_edge2(state.options.band);
   if (sides.is_poor())
     for (const auto v : t) state.drop.poor_quality()[v] = 1;
   for (int k = 0; k < 3; ++k) {
@@ -117,7 +123,7 @@ void scan(RemeshState& state) {
   std::fill_n(state.drop.poor_quality(), rows, std::uint8_t{0});
   const auto x = std::as_const(state.drop).positions();
   const double low2 = state.options.band.edge_min * state.options.band.edge_min;
-  const double high2 = state.options.band.edge_max * state.options.band.edge_max;
+  const double high2 = least_long_edge2(state.options.band);
   for (std::uint32_t f = 0; f < triangles.size(); ++f) {
     const auto& t = triangles[f];
     if (t[0] == Connectivity::removed) continue;
@@ -160,6 +166,8 @@ void check_options(const RemeshOptions& options) {
                     band.edge_max, band.edge_min));
   if (!(band.wetted_weight > 0 && band.wetted_weight <= 1))
     throw UsageError(fmt::format("the wetted weight must lie in (0, 1]; it is {}", band.wetted_weight));
+  if (!(band.refinement >= 1) || !std::isfinite(band.refinement))
+    throw UsageError(fmt::format("the refinement must be finite and at least 1; it is {}", band.refinement));
   if (!(options.smoothing >= 0 && options.smoothing <= 1))
     throw UsageError(fmt::format("the smoothing must lie in [0, 1]; it is {}", options.smoothing));
   if (options.max_passes < 1) throw UsageError("remeshing needs at least one pass");
@@ -181,12 +189,16 @@ RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOpt
   scratch.refused.clear();
   scratch.changed.clear();
   scratch.attributes.clear();
+  scratch.guard.reset();
   RemeshState state(drop, options, scratch);
   scan(state);
   const bool rests =
       scratch.splits.empty() && scratch.collapses.empty() && scratch.flips.empty() && !state.has_turned_faces;
   if (rests && (options.smoothing == 0 || !state.has_sharp_angle)) return state.report;
+  const Eigen::AlignedBox3d watched = SheetGuard::region_of(drop, options.band.edge_max);
+  if (!watched.isEmpty()) scratch.guard.emplace(drop, watched, options.band.edge_max);
   run_passes(state);
+  scratch.guard.reset();
   mark_poor_quality(state);
   if (state.report.changed()) {
     drop.topology_changed();

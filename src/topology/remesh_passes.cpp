@@ -88,6 +88,19 @@ void collapse_short_edges(RemeshState& state) {
   });
 }
 
+/// Near a seam: takes out a vertex of each edge that is far too short and that could not collapse.
+void remove_bad_vertices(RemeshState& state) {
+  if (!state.scratch.guard) return;
+  const double short2 = 0.25 * state.options.band.edge_min * state.options.band.edge_min;
+  const auto refused = state.scratch.refused;
+  for (const auto& [edge, why] : refused) {
+    if (state.mesh.is_removed(edge)) continue;
+    const auto h = state.mesh.halfedge(edge);
+    if (state.squared_length(h) < short2 && !try_remove_vertex(state, state.mesh.source(h)))
+      try_remove_vertex(state, state.mesh.target(h));
+  }
+}
+
 /// Puts what was refused, and is still there and out of the band, into the queues again.
 void queue_refused(RemeshState& state) {
   auto& refused = state.scratch.refused;
@@ -116,6 +129,7 @@ void run_passes(RemeshState& state) {
     state.scratch.max_valence = pass == 0 ? 8 : 10;
     split_long_edges(state);
     collapse_short_edges(state);
+    remove_bad_vertices(state);
     flip_edges(state);
     const bool is_last = pass + 1 == options.max_passes;
     const bool did_something = state.report.splits + state.report.collapses + state.report.flips + state.report.cuts >

@@ -35,14 +35,18 @@ Eigen::Vector3d RemeshState::normal(VertexIndex v) const {
   return length > 0 ? Eigen::Vector3d(sum / length) : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
+Eigen::Vector3d RemeshState::solid_normal(HalfedgeIndex h) const {
+  return (contact_normal(mesh.source(h)) + contact_normal(mesh.target(h)) + contact_normal(apex(h))) / 3;
+}
+
 double RemeshState::facing_solid(HalfedgeIndex h) const {
   const Eigen::Vector3d a = point(mesh.source(h)), b = point(mesh.target(h)), c = point(apex(h));
   const double longest2 = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  return longest2 > 0 ? -0.5 * (b - a).cross(c - a).dot(contact_normal(mesh.source(h))) / longest2 : 0;
+  return longest2 > 0 ? -0.5 * (b - a).cross(c - a).dot(solid_normal(h)) / longest2 : 0;
 }
 
 bool RemeshState::is_wet_face(HalfedgeIndex h) const {
-  return is_colliding_face(h) && area_vector(h).dot(contact_normal(mesh.source(h))) < 0;
+  return is_colliding_face(h) && area_vector(h).dot(solid_normal(h)) < 0;
 }
 
 bool RemeshState::inside_wetted_area(HalfedgeIndex h) const {
@@ -55,8 +59,20 @@ bool RemeshState::is_contact_line(HalfedgeIndex h) const {
 
 double RemeshState::squared_length(HalfedgeIndex h) const {
   const double length2 = (point(mesh.target(h)) - point(mesh.source(h))).squaredNorm();
-  const double weight = options.band.wetted_weight;
-  return inside_wetted_area(h) ? weight * weight * length2 : length2;
+  double weight = 1;
+  if (inside_wetted_area(h))
+    weight = options.band.wetted_weight;
+  else if (options.band.refinement > 1)
+    weight = curvature_weight(h);
+  return weight * weight * length2;
+}
+
+double RemeshState::curvature_weight(HalfedgeIndex h) const {
+  const auto a = mesh.source(h), b = mesh.target(h);
+  if (colliding(a) || colliding(b)) return 1;  // the normal turns at the contact line for other reasons
+  const double turn = (normal(b) - normal(a)).norm(), length = (point(b) - point(a)).norm();
+  const double middle = 0.5 * (options.band.edge_min + options.band.edge_max);
+  return length > 0 ? std::clamp(turn / length * middle / most_turn, 1.0, options.band.refinement) : 1;
 }
 
 bool RemeshState::is_long(double length2) const {
@@ -88,6 +104,39 @@ int RemeshState::feature_rank(VertexIndex v) const {
   return count == 2 && directions[0].dot(directions[1]) < -0.7 ? 1 : 2;
 }
 
+bool RemeshState::star_would_meet(VertexIndex v, const Eigen::Vector3d& x) const {
+  return collapse_would_meet(v, v, x);
+}
+
+bool RemeshState::collapse_would_meet(VertexIndex a, VertexIndex b, const Eigen::Vector3d& x) const {
+  if (!scratch.guard) return false;
+  auto& faces = scratch.new_faces;
+  faces.clear();
+  const auto add_faces_of = [&](VertexIndex v, VertexIndex other) {
+    const Ring r = ring(v);
+    for (int k = 0; k < r.degree; ++k) {
+      const VertexIndex p(r.neighbour[k]), q(r.neighbour[k + 1 == r.degree ? 0 : k + 1]);
+      if (p != other && q != other) faces.push_back({{a, p, q}, {x, point(p), point(q)}});
+    }
+  };
+  add_faces_of(a, b);
+  if (b != a) add_faces_of(b, a);
+  return would_meet_sheet({a, b}, {});
+}
+
+bool RemeshState::split_would_meet(HalfedgeIndex h, const Eigen::Vector3d& m) const {
+  if (!scratch.guard) return false;
+  auto& faces = scratch.new_faces;
+  faces.clear();
+  const auto name = static_cast<std::uint32_t>(mesh.num_vertices());
+  for (const auto side : {h, mesh.opposite(h)}) {
+    const auto a = mesh.source(side), b = mesh.target(side), o = apex(side);
+    faces.push_back({{a, name, o}, {point(a), m, point(o)}});
+    faces.push_back({{name, b, o}, {m, point(b), point(o)}});
+  }
+  return would_meet_sheet({}, {mesh.face(h), mesh.face(mesh.opposite(h))});
+}
+
 void RemeshState::queue(EdgeIndex e) {
   const double length2 = squared_length(mesh.halfedge(e));
   if (is_long(length2)) {
@@ -117,6 +166,9 @@ void RemeshState::queue_ring(VertexIndex v) {
 void RemeshState::update(VertexIndex v) {
   connectivity.update_vertex(mesh, v);
   scratch.changed.push_back(v);
+  if (!scratch.guard || mesh.is_removed(v)) return;
+  const Ring r = ring(v);
+  for (int k = 0; k < r.degree; ++k) scratch.guard->add(r.corner[k] / 3);
 }
 
 void RemeshState::update_contact(VertexIndex v) {

@@ -3,10 +3,12 @@
 
 #include "attribute_maps.h"
 #include "meniscus/topology/remesh.h"
+#include "sheet_guard.h"
 
 #include <Eigen/Geometry>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 /// What the edge operations share. Each operation lies in a file of its own, with its predicates.
@@ -50,6 +52,8 @@ struct Remesher::Scratch {
   std::vector<HalfedgeIndex> cycle;
   AttributeMaps attributes;
   std::vector<ForbiddenBall> forbidden;
+  std::optional<SheetGuard> guard;  ///< where sheets are close together
+  std::vector<SheetGuard::NewFace> new_faces;
   int max_valence = 8;  ///< of a vertex that two others became
 };
 
@@ -84,7 +88,9 @@ struct RemeshState {
   }
   /// The solid's outward unit normal at a colliding vertex.
   Eigen::Vector3d contact_normal(VertexIndex v) const { return std::as_const(drop).contact_normals().col(v); }
-  /// The part of the area vector of the face left of h that faces into the solid at its source, in
+  /// The mean of the contact normals of the face left of h: over an edge of the solid, one alone will not do.
+  Eigen::Vector3d solid_normal(HalfedgeIndex h) const;
+  /// The part of the area vector of the face left of h that faces into its solid, in
   /// squares of its longest side: 0.43 at most, negative if it faces away.
   double facing_solid(HalfedgeIndex h) const;
   /// The face left of h lies on a solid: its vertices are colliding, and it faces into the solid.
@@ -93,8 +99,11 @@ struct RemeshState {
   bool inside_wetted_area(HalfedgeIndex h) const;
   /// One face is wet, the other is not.
   bool is_contact_line(HalfedgeIndex h) const;
-  /// Squared length as the band sees it: weighted inside the wetted area.
+  /// Squared length as the band sees it: weighted inside the wetted area, and where the free surface curves.
   double squared_length(HalfedgeIndex h) const;
+  /// The factor, 1 to band.refinement, by which an edge in the middle of the band turns the normal by more than
+  /// most_turn.
+  double curvature_weight(HalfedgeIndex h) const;
   bool is_long(double squared_length) const;
   bool is_short(double squared_length) const { return squared_length < options.band.edge_min * options.band.edge_min; }
   bool is_forbidden(const Eigen::Vector3d& p) const;
@@ -103,6 +112,18 @@ struct RemeshState {
   bool is_feature(HalfedgeIndex h) const;
   /// 0 smooth, 1 on a sharp edge, 2 a corner.
   int feature_rank(VertexIndex v) const;
+
+  /// The faces in scratch.new_faces, in place of those that hold one of `replaced` or are `removed`, would meet
+  /// another sheet of the surface. False where there is no guard.
+  bool would_meet_sheet(const std::vector<std::uint32_t>& replaced, const std::vector<std::uint32_t>& removed) const {
+    return scratch.guard && scratch.guard->would_meet(scratch.new_faces, replaced, removed);
+  }
+
+  /// The same for the faces about v with v at x; for those that stay about a and b when both come to x; for the four
+  /// about a new vertex at m on an edge.
+  bool star_would_meet(VertexIndex v, const Eigen::Vector3d& x) const;
+  bool collapse_would_meet(VertexIndex a, VertexIndex b, const Eigen::Vector3d& x) const;
+  bool split_would_meet(HalfedgeIndex h, const Eigen::Vector3d& m) const;
 
   /// Queues an edge for whatever its length or weight asks.
   void queue(EdgeIndex e);
@@ -119,6 +140,9 @@ constexpr double negative_weight = -1e-4;
 /// A face of three colliding vertices whose facing_solid is less is turned over, or nearly so.
 constexpr double hardly_facing = 0.01;
 
+/// Along an edge of the free surface the normal turns by no more than this (radians), as far as the band allows.
+constexpr double most_turn = 0.5;
+
 /// How far a vertex is lifted off a solid where the liquid has no thickness, in lengths of edge_min.
 constexpr double lift_in_edges = 0.02;
 
@@ -133,7 +157,10 @@ void mark_poor_quality(RemeshState& state);
 Refusal try_split(RemeshState& state, HalfedgeIndex h);
 Refusal try_collapse(RemeshState& state, HalfedgeIndex h);
 Refusal try_flip(RemeshState& state, HalfedgeIndex h);
-/// Cuts at a 3-cycle through the edge that is no face, if there is one (Section 5.2).
+/// Near a seam, takes a vertex out and triangulates its ring anew as well as it can be. Not on solids. Returns
+/// false if nothing was done.
+bool try_remove_vertex(RemeshState& state, VertexIndex v);
+/// Cuts at a 3-cycle through the edge that is no face, if there is one (Section 5.2), but not near a seam.
 Refusal try_cut(RemeshState& state, HalfedgeIndex h);
 /// Mends what moving vertices along a solid did to faces of three colliding vertices: folds in the
 /// wetted area, and air faces that lie flat on it (a film of no thickness).

@@ -90,7 +90,7 @@ MeshData with_attributes(MeshData data, const Welded& welded, const MeshData& so
 MeshData unite_components(const MeshData& data) {
   std::vector<MeshData> parts;
   for (const auto& piece : connected_components(to_mesh(data))) parts.push_back(to_mesh_data(piece, data.attributes));
-  MergeReport report;
+  MeshMergeReport report;
   auto united = merge_meshes(parts, BooleanOperation::unite, {}, report);
   if (!united) throw GeometryError("its components cannot be united: " + report.message);
   united->comments = data.comments;

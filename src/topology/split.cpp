@@ -125,16 +125,19 @@ std::vector<Mesh> connected_components(const Mesh& mesh) {
   return pieces;
 }
 
-std::vector<Drop> split_components(Drop drop, SplitReport& report) {
+std::vector<Drop> split_components(Drop drop, SplitReport& report, double least_volume) {
   report = {};
   const Mesh& mesh = drop.mesh();
   const auto components = components_of(mesh, label_components(mesh));
+  if (std::none_of(components.begin(), components.end(),
+                   [&](const Component& component) { return volume_of(mesh, component) >= least_volume; }))
+    least_volume = 0;
   std::vector<const Component*> kept;
   for (const auto& component : components) {
     const double volume = volume_of(mesh, component);
     if (!(volume > 0)) {
       ++report.deleted_empty;
-    } else if (component.faces.size() == 4) {
+    } else if (component.faces.size() == 4 || volume < least_volume) {
       ++report.deleted;
       report.volume_deleted += volume;
     } else {

@@ -7,6 +7,7 @@
 #include "meniscus/io/read_file.h"
 #include "meniscus/io/read_mesh.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -106,8 +107,9 @@ TEST_F(FrameWriterTest, OtherFormatsLieBesideThePly) {
 }
 
 TEST_F(FrameWriterTest, OldFramesGoAndNothingElse) {
-  for (const char* name : {"frame_0000.ply", "frame_0123.off", "frame_12345.obj", "frame_0001.stl", "frame_1.ply",
-                           "frame_00001.ply", "my_frame_0000.ply", "frame_0000.ply.bak", "notes.txt"})
+  for (const char* name : {"frame_0000.ply", "frame_0123.off", "frame_12345.obj", "frame_0000.vtp", "frame_0000.glb",
+                           "frames.pvd", "frames.usda", "frame_0001.stl", "frame_1.ply", "frame_00001.ply",
+                           "my_frame_0000.ply", "frame_0000.ply.bak", "notes.txt"})
     touch(name);
   FrameWriter writer(directory_);
   EXPECT_EQ(names(), (std::vector<std::string>{"frame_0000.ply.bak", "frame_00001.ply", "frame_0001.stl", "frame_1.ply",
@@ -130,18 +132,48 @@ TEST_F(FrameWriterTest, DirectoryThatIsAFileIsAnError) {
   EXPECT_THROW(FrameWriter(directory_ / "taken" / "deeper"), FileError);
 }
 
+TEST_F(FrameWriterTest, CollectionListsTheFramesSoFar) {
+  FrameOptions options;
+  options.formats = parse_frame_formats("vtp");
+  FrameWriter writer(directory_, options);
+  for (int k = 0; k < 3; ++k) {
+    writer.write(k, 0.25 * k, two_drops());
+    const std::string list = read_file(directory_ / "frames.pvd");
+    EXPECT_NE(list.find(fmt::format("timestep=\"{:.17g}\" part=\"0\" file=\"frame_000{}.vtp\"", 0.25 * k, k)),
+              std::string::npos)
+        << list;
+    EXPECT_EQ(std::count(list.begin(), list.end(), '\n'), 3 + 2 + (k + 1));
+  }
+}
+
+TEST_F(FrameWriterTest, SequenceOfAllFramesComesAtTheEnd) {
+  FrameOptions options;
+  options.formats = parse_frame_formats("usda");
+  FrameWriter writer(directory_, options);
+  writer.write(0, 0, two_drops());
+  writer.write(1, 0.5, two_drops());
+  EXPECT_FALSE(fs::exists(directory_ / "frames.usda"));
+  writer.finish();
+  const std::string text = read_file(directory_ / "frames.usda");
+  EXPECT_EQ(text.rfind("#usda 1.0\n", 0), 0u);
+  EXPECT_NE(text.find("timeCodesPerSecond = 2\n"), std::string::npos);
+  EXPECT_NE(text.find("endTimeCode = 1\n"), std::string::npos);
+  EXPECT_EQ(names(), (std::vector<std::string>{"frame_0000.ply", "frame_0001.ply", "frames.usda", "measures.csv"}));
+}
+
 TEST(FrameFormats, PlyIsAlwaysFirstAndNamesAreChecked) {
-  using Formats = std::vector<MeshFormat>;
-  EXPECT_EQ(parse_frame_formats("ply"), (Formats{MeshFormat::ply}));
-  EXPECT_EQ(parse_frame_formats("obj,off,obj"), (Formats{MeshFormat::ply, MeshFormat::obj, MeshFormat::off}));
-  for (const char* bad : {"", "ply,", "stl", "vtp", "ply,glb", "usda", "PLY "})
+  using Formats = std::vector<FrameFormat>;
+  EXPECT_EQ(parse_frame_formats("ply"), (Formats{FrameFormat::ply}));
+  EXPECT_EQ(parse_frame_formats("obj,off,obj"), (Formats{FrameFormat::ply, FrameFormat::obj, FrameFormat::off}));
+  EXPECT_EQ(parse_frame_formats("vtp,glb,usda").size(), 4u);
+  for (const char* bad : {"", "ply,", "stl", "vtk", "ply,gltf", "usd", "PLY "})
     EXPECT_THROW(parse_frame_formats(bad), UsageError) << bad;
 }
 
 TEST(FrameNames, CountUpBeyondFourDigits) {
-  EXPECT_EQ(frame_name(7, MeshFormat::ply), "frame_0007.ply");
-  EXPECT_EQ(frame_name(123456, MeshFormat::off), "frame_123456.off");
-  for (const int frame : {0, 9999, 10000, 2000000000}) EXPECT_TRUE(is_frame_name(frame_name(frame, MeshFormat::obj)));
+  EXPECT_EQ(frame_name(7, FrameFormat::ply), "frame_0007.ply");
+  EXPECT_EQ(frame_name(123456, FrameFormat::off), "frame_123456.off");
+  for (const int frame : {0, 9999, 10000, 2000000000}) EXPECT_TRUE(is_frame_name(frame_name(frame, FrameFormat::obj)));
 }
 
 }  // namespace

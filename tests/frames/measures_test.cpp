@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/frames/measures.h"
 
+#include "meniscus/state/ledger.h"
+
 #include "meniscus/geometry/shapes.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/io/write_file_atomically.h"
 
+#include "meniscus/io/directory_lock.h"
+
 #include "io_test_helpers.h"
 #include "meniscus/io/read_file.h"
 
@@ -115,6 +117,36 @@ TEST(WriteMesh, ABrokenStreamIsAnError) {
   std::ostringstream out;
   out.setstate(std::ios::badbit);
   EXPECT_THROW(write_mesh(out, MeshFormat::off, tetrahedron()), FileError);
+}
+
+TEST(AppendToFile, AddsAndNamesTheFileThatIsNotThere) {
+  const TemporaryDirectory directory;
+  EXPECT_TRUE(has(file_error([&] { append_to_file(directory / "a", "x"); }), "a: cannot be written"));
+  write_file_atomically(directory / "a", "one\n");
+  append_to_file(directory / "a", "two\n");
+  append_to_file(directory / "a", "");
+  EXPECT_EQ(read_file(directory / "a"), "one\ntwo\n");
+}
+
+TEST(RemoveTemporaryFiles, TakesWhatKilledProgramsLeftAndNothingElse) {
+  const TemporaryDirectory directory;
+  for (const char* name : {".meniscus-123-0.tmp", ".meniscus-.tmp", "meniscus-1-0.tmp", ".meniscus-1-0.tmpx", "a"})
+    write_file_atomically(directory / name, "");
+  remove_temporary_files(directory / ".");
+  EXPECT_EQ(directory.names(), (Names{".meniscus-.tmp", ".meniscus-1-0.tmpx", "a", "meniscus-1-0.tmp"}));
+}
+
+TEST(DirectoryLock, IsHeldByOneAtATime) {
+  const TemporaryDirectory directory;
+  {
+    DirectoryLock first(directory / "out");
+    EXPECT_TRUE(has(file_error([&] { DirectoryLock second(directory / "out"); }), "another run"));
+    DirectoryLock moved(std::move(first));
+    EXPECT_TRUE(has(file_error([&] { DirectoryLock second(directory / "out"); }), "another run"));
+  }
+  DirectoryLock again(directory / "out");
+  write_file_atomically(directory / "file", "");
+  EXPECT_TRUE(has(file_error([&] { DirectoryLock on_file(directory / "file"); }), "cannot be made the directory"));
 }
 
 }  // namespace

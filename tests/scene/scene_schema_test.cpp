@@ -47,18 +47,18 @@ bool accepts_names(const json& schema, const json& value) {
 TEST(SceneSchema, IsJsonWithARangeUnitAndDefault) {
   const json schema = json::parse(scene_schema());
   EXPECT_EQ(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
-  EXPECT_EQ(schema["required"], json::array({"drops"}));
+  EXPECT_EQ(schema["anyOf"], json::parse(R"([{"required": ["drops"]}, {"required": ["sources"]}])"));
   EXPECT_EQ(schema["additionalProperties"], false);
   const json& step = schema["properties"]["time_step"];
   EXPECT_EQ(step["type"], "number");
   EXPECT_EQ(step["exclusiveMinimum"], 0);
   EXPECT_EQ(step["maximum"], 1);
   EXPECT_EQ(step["default"], 1.0 / 240);
-  EXPECT_EQ(schema["properties"]["model"]["enum"], json::array({"paper", "calibrated"}));
+  EXPECT_EQ(schema["properties"]["model"]["enum"], json::array({"paper", "calibrated", "pressure"}));
   EXPECT_EQ(schema["properties"]["gravity"]["default"], json::array({0, 0, -981}));
   EXPECT_EQ(schema["properties"]["solids"]["items"]["oneOf"].size(), 6u);
-  EXPECT_EQ(schema["properties"]["drops"]["items"]["oneOf"].size(), 5u);
-  EXPECT_FALSE(schema["properties"].contains("sources"));
+  EXPECT_EQ(schema["properties"]["drops"]["items"]["oneOf"].size(), 6u);
+  EXPECT_EQ(schema["properties"]["sleep"]["default"], false);
 }
 
 TEST(SceneSchema, AcceptsTheExampleScenesAndNoOtherNames) {
@@ -67,7 +67,7 @@ TEST(SceneSchema, AcceptsTheExampleScenesAndNoOtherNames) {
     if (entry.path().extension() != ".json") continue;
     json scene = json::parse(read_text(entry.path()), nullptr, true, true);
     EXPECT_TRUE(accepts_names(schema, scene)) << entry.path();
-    scene["drops"][0]["raduis"] = 1;
+    scene[scene.contains("drops") ? "drops" : "sources"][0]["raduis"] = 1;
     EXPECT_FALSE(accepts_names(schema, scene)) << entry.path();
   }
 }

@@ -8,6 +8,7 @@
 #include <rapidcheck/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <filesystem>
 
 namespace meniscus::test {
@@ -22,7 +23,7 @@ TEST(ResolvedScene, FillsInTheDefaultsOfEachShape) {
   EXPECT_FALSE(scene["solids"][0].contains("radius"));
   EXPECT_EQ(scene["drops"][0]["radius"], 0.2);
   EXPECT_FALSE(scene["drops"][0].contains("size"));
-  EXPECT_FALSE(scene.contains("sources"));
+  EXPECT_EQ(scene["sources"].size(), 0u);
 }
 
 TEST(ResolvedScene, ExampleScenesReadBackTheSame) {
@@ -48,6 +49,24 @@ TEST(ResolvedScene, MovingSolidsAndCapsReadBackTheSame) {
   EXPECT_EQ(again.solids[0].velocity, scene.solids[0].velocity);
   EXPECT_EQ(again.drops[1].angle, scene.drops[1].angle);
   EXPECT_FALSE(again.drops[0].angle.has_value());
+}
+
+TEST(ResolvedScene, SourcesScatterAndEdgesReadBackTheSame) {
+  const Scene scene = parse(R"({"sleep": true, "solids": [
+      {"name": "b", "shape": "box", "size": [1,1,1], "edge_radius": 0.05},
+      {"shape": "cylinder", "from": [0,0,0], "to": [0,0,1], "radius": 1}],
+    "drops": [{"shape": "scatter", "on": "b", "count": 3, "size": [1,1,0.1], "sizes": "uniform", "seed": 7}],
+    "sources": [{"shape": "disc", "speed": 5}, {"shape": "disc", "start": 1, "stop": 2.5}]})");
+  const std::string text = resolved_scene(scene);
+  const Scene again = parse(text);
+  EXPECT_EQ(resolved_scene(again), text);
+  EXPECT_TRUE(again.sleep);
+  EXPECT_EQ(again.solids[0].edge_radius, 0.05);
+  EXPECT_FALSE(again.solids[1].edge_radius.has_value());
+  EXPECT_EQ(again.drops[0].seed, 7);
+  EXPECT_EQ(again.drops[0].sizes, ScatterSizes::uniform);
+  EXPECT_TRUE(std::isinf(again.sources[0].stop));
+  EXPECT_EQ(again.sources[1].stop, 2.5);
 }
 
 // A double in [1e-9, 1) with all its bits.

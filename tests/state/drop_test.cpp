@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <type_traits>
 
 namespace meniscus {
 namespace {
@@ -96,6 +97,23 @@ TEST(DropData, AFaceBetweenTwoDropsIsAnError) {
   for (auto& attribute : data.attributes)
     if (attribute.name == "drop") attribute.values[0] = 1;
   EXPECT_THROW(to_drops(data), GeometryError);
+}
+
+TEST(Drop, AVectorThatGrowsMovesItsDrops) {
+  static_assert(std::is_nothrow_move_constructible_v<Drop> && std::is_nothrow_move_assignable_v<Drop>,
+                "or else each growth copies meshes and throws kept factors away");
+  std::vector<Drop> drops;
+  drops.push_back(ball());
+  const double* const data = std::as_const(drops[0]).positions().data();
+  drops.reserve(drops.capacity() + 1);
+  EXPECT_EQ(std::as_const(drops[0]).positions().data(), data);
+}
+
+TEST(Drop, ACopySolvesAsItsOriginalDoes) {
+  Drop drop = ball();
+  EXPECT_TRUE(drop.flow_pattern_changed());
+  Drop copy(drop);
+  EXPECT_FALSE(copy.flow_pattern_changed()) << "which would choose another solver, and other last bits";
 }
 
 }  // namespace

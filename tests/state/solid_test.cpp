@@ -230,6 +230,50 @@ RC_GTEST_PROP(Solid, IsNearNeverMisses, ()) {
   }
 }
 
+/// The distance's gradient at x by central differences.
+Vector3d gradient(const Solid& solid, const Vector3d& x) {
+  constexpr double h = 1e-6;
+  Vector3d g;
+  for (int k = 0; k < 3; ++k)
+    g[k] = (solid.query(x + h * Vector3d::Unit(k), 0).distance - solid.query(x - h * Vector3d::Unit(k), 0).distance) /
+           (2 * h);
+  return g;
+}
+
+TEST(Solid, RoundedEdgesTurnTheNormalWithTheSurface) {
+  const double r = 0.1;
+  for (const Solid& solid :
+       {Solid::box(origin, {2, 2, 2}, Eigen::Matrix3d::Identity(), r), Solid::cylinder({0, 0, -1}, {0, 0, 1}, 1, r)}) {
+    // Across the edge x = z = 1, y = 0: a quarter circle of radius r about (0.9, 0, 0.9).
+    for (const double degrees : {1.0, 30.0, 45.0, 77.0, 89.0}) {
+      const Vector3d n(std::cos(degrees * M_PI / 180), 0, std::sin(degrees * M_PI / 180));
+      const Vector3d center(1 - r, 0, 1 - r), on = center + r * n;
+      for (const double height : {-0.5 * r, 0.0, 0.3}) {
+        const SolidContact contact = solid.query(on + height * n, 0);
+        EXPECT_NEAR(contact.distance, height, 1e-12);
+        EXPECT_NEAR((contact.point - on).norm(), 0, 1e-12);
+        EXPECT_NEAR((contact.normal - n).norm(), 0, 1e-12);
+      }
+    }
+    for (const Vector3d& x : {Vector3d(1.05, 0.1, 0.98), Vector3d(0.95, 0.1, 0.97), Vector3d(0.2, 0.1, 1.2)})
+      EXPECT_NEAR((gradient(solid, x) - solid.query(x, 0).normal).norm(), 0, 1e-5);
+  }
+  EXPECT_THROW(Solid::box(origin, {1, 1, 1}, Eigen::Matrix3d::Identity(), -0.1), UsageError);
+}
+
+TEST(Solid, ADiscHoldsLiquidOnOneSide) {
+  const Solid disc = Solid::disc({1, 2, 3}, {0, 0, -2}, 0.5);
+  const SolidContact below = disc.query({1.2, 2.1, 2.6}, 0);
+  EXPECT_NEAR(below.distance, 0.4, 1e-15);
+  EXPECT_NEAR((below.point - Vector3d(1.2, 2.1, 3)).norm(), 0, 1e-15);
+  EXPECT_EQ(below.normal, Vector3d(0, 0, -1));
+  EXPECT_NEAR(disc.query({1.2, 2.1, 3.1}, 0).distance, -0.1, 1e-15);  // behind: inside
+  EXPECT_GT(disc.query({1.2, 2.1, 4}, 0).distance, 0);                // far behind: not
+  EXPECT_NEAR(disc.query({1.8, 2, 3.4}, 0).distance, 0.5, 1e-15);     // 3-4-5 from the rim
+  EXPECT_NEAR((disc.rim_point({1.4, 2, 3}, 0) - Vector3d(1.5, 2, 3)).norm(), 0, 1e-15);
+  EXPECT_EQ(disc.rim_point({1.1, 2, 3}, 0), Vector3d(1.1, 2, 3));
+}
+
 TEST(Solid, IsNearRejects) {
   const Eigen::AlignedBox3d box(Vector3d(0, 0, 2), Vector3d(1, 1, 3));
   EXPECT_FALSE(Solid::plane(origin, {0, 0, 1}).is_near(box, 0, 1.9));

@@ -80,20 +80,6 @@ TEST_F(CommandLine, NumbersMustBeFiniteAndPositive) {
   }
 }
 
-TEST_F(CommandLine, WhatComesLaterSaysSo) {
-  write("a.ply", sphere());
-  for (const char* arguments :
-       {"view out --html x.html", "evolve a.ply -o out --resume"}) {
-    const Outcome outcome = tool(arguments);
-    EXPECT_EQ(outcome.code, 2) << arguments;
-    EXPECT_TRUE(has(outcome.err, "later version")) << arguments << "\n" << outcome.err;
-  }
-  const Outcome frames = tool("evolve a.ply -o out --frames-as vtp");
-  EXPECT_EQ(frames.code, 2);
-  EXPECT_TRUE(has(frames.err, "not available in this version")) << frames.err;
-  EXPECT_EQ(names(), (std::vector<std::string>{"a.ply"}));
-}
-
 TEST_F(CommandLine, SchemaIsJsonAndBenchSaysWhereBenchmarksAre) {
   const Outcome schema = tool("schema");
   EXPECT_EQ(schema.code, 0);

@@ -95,7 +95,7 @@ TEST(BooleanBattery, BadMeshesAreRefusedOrRepaired) {
       EXPECT_FALSE(result.message.empty());
       EXPECT_TRUE(result.triangles.empty());
     }
-    MergeReport report;
+    MeshMergeReport report;
     try {
       const MeshData mended = repair_soup(c.a);
       const auto merged = merge_meshes({mended, c.b}, BooleanOperation::unite, {}, report);

@@ -25,7 +25,7 @@ MeshData with_attributes(MeshData mesh, int drop) {
 }
 
 std::optional<MeshData> unite(const std::vector<MeshData>& meshes) {
-  MergeReport report;
+  MeshMergeReport report;
   return merge_meshes(meshes, BooleanOperation::unite, {}, report);
 }
 
@@ -58,7 +58,7 @@ TEST(MergeMeshes, TheOrderOfManyDoesNotMatter) {
 }
 
 TEST(MergeMeshes, TheFirstLessTheRest) {
-  MergeReport report;
+  MeshMergeReport report;
   const auto rest = merge_meshes({cube({0, 0, 0}, {4, 4, 4}), cube({1, 0.1, 2}), cube({-1, 0, 2}), cube({0, 0, 9})},
                                  BooleanOperation::subtract, {}, report);
   ASSERT_TRUE(rest) << report.message;
@@ -66,7 +66,7 @@ TEST(MergeMeshes, TheFirstLessTheRest) {
 }
 
 TEST(MergeMeshes, WhatAllHaveInCommon) {
-  MergeReport report;
+  MeshMergeReport report;
   const std::vector<MeshData> bars = {cube({0, 0, 0}, {3, 1, 1}), cube({0, 0, 0}, {1, 3, 1.5}),
                                       cube({0, 0, 0}, {2, 2, 0.5})};
   const auto common = merge_meshes(bars, BooleanOperation::intersect, {}, report);
@@ -80,7 +80,7 @@ TEST(MergeMeshes, WhatAllHaveInCommon) {
 TEST(MergeMeshes, AirShutInIsKeptOrDropped) {
   const MeshData a = boolean_cases::cup();
   const MeshData b = boolean_cases::moved(boolean_cases::rotated(a, 3.141592653589793, {0, 0, 1}), {0.9, 0.02, 0.03});
-  MergeReport report;
+  MeshMergeReport report;
   BooleanOptions options;
   const auto kept = merge_meshes({a, b}, BooleanOperation::unite, options, report);
   options.keep_cavities = false;
@@ -104,7 +104,7 @@ TEST(Divide, PlanesShareTheVolumeOut) {
   for (const double height : {-2.0, -0.5, 0.0, 1e-9, 0.3, 0.99, 2.0}) {
     SCOPED_TRACE(height);
     const Eigen::Vector3d normal(0.2, -0.4, 3);
-    MergeReport report;
+    MeshMergeReport report;
     const auto parts = divide(mesh, half_space(mesh, normal, height * normal.norm()), {}, report);
     ASSERT_TRUE(parts) << report.message;
     double sum = 0;
@@ -125,7 +125,7 @@ TEST(Divide, PlanesShareTheVolumeOut) {
 TEST(Divide, ByAMesh) {
   const MeshData block = cube({0, 0, 0}, {2, 2, 2});
   const MeshData cutter = ball(5, {1, 0.1, 0.2}, 0.7);
-  MergeReport report;
+  MeshMergeReport report;
   const auto parts = divide(with_attributes(block, 4), cutter, {}, report);
   ASSERT_TRUE(parts) << report.message;
   EXPECT_NEAR(volume(parts->first), boolean_cases::common_volume(block, cutter), 1e-10);

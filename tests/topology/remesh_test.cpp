@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <optional>
@@ -473,6 +475,33 @@ TEST(Remesh, MakesTheWettedAreaCoarser) {
     return count;
   };
   EXPECT_LT(wet_vertices(0.5), 0.6 * static_cast<double>(wet_vertices(1)));
+}
+
+TEST(Remesh, RefinesWhereTheSurfaceCurves) {
+  // A prolate ellipsoid: the curvatures at its tips are 50/cm, at its waist 10 and 0.4 (half that in the mean).
+  const auto edges_of = [](double refinement) {
+    Drop drop(make_ellipsoid({0, 0, 0}, {0.1, 0.1, 0.5}, 0.05));
+    RemeshOptions options = band(0.04, 0.12);
+    options.band.refinement = refinement;
+    for (int k = 0; k < 4; ++k) remesh(drop, options);
+    EXPECT_EQ(judge::defect(drop), "");
+    double tip = 0, waist = 0, least = INFINITY;
+    int tips = 0, waists = 0;
+    for (const auto e : drop.mesh().edges()) {
+      const auto h = drop.mesh().halfedge(e);
+      const double z =
+          0.5 * std::abs(drop.mesh().point(drop.mesh().source(h)).z() + drop.mesh().point(drop.mesh().target(h)).z());
+      const double length = edge_length(drop.mesh(), e);
+      least = std::min(least, length);
+      if (z > 0.45) tip += length, ++tips;
+      if (z < 0.2) waist += length, ++waists;
+    }
+    return std::array<double, 3>{tip / tips, waist / waists, least};
+  };
+  const auto even = edges_of(1), refined = edges_of(4);
+  EXPECT_LT(refined[0], 0.75 * even[0]);
+  EXPECT_LT(refined[0], 0.7 * refined[1]);
+  EXPECT_GT(refined[2], 0.5 * 0.04 / 4);
 }
 
 TEST(Remesh, RefusesBandsThatMeanNothing) {

@@ -92,6 +92,18 @@ TEST(Split, ALoneTetrahedronVanishes) {
   EXPECT_EQ(report.deleted, 1u);
 }
 
+TEST(Split, SpecksGiveTheirVolumeToTheOthers) {
+  const Mesh ball = make_icosphere(Vector3d::Zero(), 1, 3), speck = make_icosphere(Vector3d(3, 0, 0), 0.05, 1);
+  Drop drop(joined({ball, speck}));
+  const double target = drop.target_volume();
+  SplitReport report;
+  const auto pieces = split_components(drop, report, 0.01);
+  ASSERT_EQ(pieces.size(), 1u);
+  EXPECT_EQ(report.deleted, 1u);
+  EXPECT_NEAR(pieces[0].target_volume() / target, 1, 1e-14);
+  EXPECT_EQ(split_components(Drop(speck), report, 0.01).size(), 1u);  // nobody else could take it
+}
+
 TEST(Split, DeletesWhatEnclosesNothing) {
   Mesh inside_out = make_icosphere(Vector3d(4, 0, 0), 0.2, 1);
   for (const auto v : inside_out.vertices())  // mirrored

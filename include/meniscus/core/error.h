@@ -49,4 +49,11 @@ class NumericsError : public Error {
   using Error::Error;
 };
 
+/// A drop that the independent judge found unsound (exit code 5): a fault of this program, or of a time step that
+/// is too large for it.
+class SoundnessError : public NumericsError {
+ public:
+  using NumericsError::NumericsError;
+};
+
 }  // namespace meniscus

@@ -27,15 +27,6 @@ struct DropMeasures {
 /// Measures one drop; `density` is the liquid's, g/cm^3.
 DropMeasures measure_drop(const Drop& drop, double density);
 
-/// The centre of mass of the enclosed volume (cm); zero if the volume vanishes.
-Eigen::Vector3d volume_centroid(const Drop& drop);
-
-/// The linear momentum that the velocities on the surface tell of, rho oint (x - c) (u.n) dS about the
-/// point c: per face (A/12) sum_ij (1 + delta_ij) (x_i - c) (u_j.n), exact for velocities and positions
-/// that are linear on faces (g cm/s). For a flow that keeps the volume it is the integral of rho u
-/// and does not depend on c.
-Eigen::Vector3d surface_momentum(const Drop& drop, double density, const Eigen::Vector3d& c);
-
 /// The first line of measures.csv, with its line end: the columns' names.
 std::string measures_header();
 

@@ -43,6 +43,10 @@ class Connectivity {
   /// vertex of every face that was made, changed or removed (removed vertices included).
   void update_vertex(const Mesh& mesh, VertexIndex v);
 
+  /// Turns the ring of v so that it starts at `neighbour`: where a ring starts decides the last bits of sums
+  /// over it. Throws GeometryError if it is no neighbour.
+  void start_ring_at(std::uint32_t v, std::uint32_t neighbour);
+
   /// Marks a face as removed. Call it for the faces that an edge operation removed.
   void remove_face(FaceIndex f) { triangles_[f] = {removed, removed, removed}; }
 

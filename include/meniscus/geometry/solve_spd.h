@@ -70,9 +70,9 @@ class SpdSolver {
   /// return. Rows with fixed[i] != 0 (nullptr: none) are held at zero, whatever the start says.
   /// All-zero B gives zero. `pattern_changed` says that the connectivity is not that of the last
   /// call, so that kept symbolic factors are void. The result depends on the arguments alone, not on
-  /// earlier calls. Nothing is allocated while the number of rows stands, except by CHOLMOD.
-  /// Never throws for numerical reasons: a matrix that is not positive definite, or anything not
-  /// finite, is reported as not converged.
+  /// earlier calls (a resumed run solves with a new solver where the unbroken one had kept factors). Nothing is
+  /// allocated while the number of rows stands, except by CHOLMOD. Never throws for numerical reasons: a matrix that is
+  /// not positive definite, or anything not finite, is reported as not converged.
   SolveReport solve(const Connectivity& connectivity, const RingMatrix& matrix, const Lanes* rhs, Lanes* solution,
                     const std::uint8_t* fixed, bool pattern_changed, const SolverOptions& options);
 

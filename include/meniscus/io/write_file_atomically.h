@@ -14,4 +14,12 @@ namespace meniscus {
 /// a change to the older one.
 void write_file_atomically(const std::filesystem::path& path, std::string_view contents);
 
+/// Adds `contents` to the end of a file that is there, and syncs it to the disk.
+/// Throws FileError, naming the file and the reason, and then cuts the file to what it was.
+void append_to_file(const std::filesystem::path& path, std::string_view contents);
+
+/// Removes the temporary files that killed programs left in a directory. Call it only while no other
+/// program writes there. Throws FileError.
+void remove_temporary_files(const std::filesystem::path& directory);
+
 }  // namespace meniscus

@@ -25,15 +25,18 @@ struct ContactAngleOptions {
 
 struct ContactAngleReport {
   std::size_t line = 0, advancing = 0, receding = 0;  ///< vertices
+  std::size_t straightened = 0;                       ///< virtual_work: vertices where the line turned too sharply
 };
 
 /// Moves the contact line towards its stable angle (Section 4.3 of the paper, Eq 8): outward where
 /// theta is above the solid's advancing angle, inward where it is below the receding angle, and
-/// not at all between. Each solid brings its own two angles.
+/// not at all between. Each solid brings its own two angles; a source holds its line where it is.
 ///
 /// measured_angle is the paper's. virtual_work measures theta by the derivative of the surface area
 /// and pushes each line vertex by c f/M against friction, implicitly, so that it is stable at any dt; a
-/// vertex between its two angles sticks to the solid. The drop's pressure counts in the balance.
+/// vertex between its two angles sticks to the solid. The drop's pressure counts in the balance. Where the line turns
+/// by more than 90 degrees (or three times what a regular polygon of its vertices would) the vertex goes half way to
+/// the middle of its neighbours.
 ///
 /// Reads positions, `geometry` (lumped areas only: that of the step's start will do), contact state and `time` (for
 /// moving solids); writes positions and velocities of line vertices, never along the solid's normal.

@@ -15,6 +15,7 @@ struct ExternalForcesOptions {
   bool friction_per_step = false;
   /// Whether vertices inside the wetted area stay where they are on the solid (no slip).
   bool no_slip = true;
+  double touching_distance = 0;  ///< cm: vertices this near to a solid are on it
 };
 
 struct ExternalForcesReport {
@@ -28,7 +29,8 @@ struct ExternalForcesReport {
 ///
 /// A vertex that was colliding and belongs to a wetted face stays on its solid: nothing can come
 /// between. It is the contact line that moves off, along the solid; the last vertices without a
-/// wetted face are free to leave.
+/// wetted face are free to leave. On a source (Solid::inflow) they stay where they are, the line on the
+/// disc's rim, with the velocity of what comes out.
 ///
 /// Reads and writes positions (cm), velocities (cm/s), contact state, normals and solids.
 /// A drop far from every solid, or no solids: no contact work. dt = 0 moves nothing.

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,9 @@ namespace meniscus {
 inline constexpr double pi = 3.14159265358979323846;
 
 enum class SolidShape { plane, sphere, box, cylinder, capsule, mesh };
-enum class DropShape { sphere, ellipsoid, box, cap, mesh };
+enum class DropShape { sphere, ellipsoid, box, cap, scatter, mesh };
+/// How the radii of scattered drops are spread between their bounds.
+enum class ScatterSizes { log_uniform, uniform };
 
 /// Where a moving solid is at a time, as a displacement from the place that its shape gives.
 /// Linear between keys; held before the first and after the last.
@@ -42,6 +45,7 @@ struct SolidSpec {
   double scale = 1;                                       ///< mesh: applied first, about the origin
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< box, mesh: about x, then y, then z (fixed axes)
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< mesh: applied last, cm
+  std::optional<double> edge_radius;                      ///< box, cylinder: of their edges, cm; none: edge_min
   double advancing_angle = pi / 2;
   double receding_angle = pi / 2;                      ///< at most the advancing angle
   double friction_speed = 0.1;                         ///< epsilon of Eq 2, cm/s
@@ -52,24 +56,43 @@ struct SolidSpec {
 /// A drop at the start. Only the parameters of its shape count.
 struct DropSpec {
   DropShape shape = DropShape::sphere;
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< cm; cap: a point whose projection on the solid is the middle
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< cm; cap: its middle is the solid's nearest point to this
   double radius = 0.2;                               ///< sphere: cm; cap: of the ball of the same volume
   Eigen::Vector3d semi_axes = Eigen::Vector3d::Constant(0.2);  ///< ellipsoid: along x, y, z before rotation, cm
   Eigen::Vector3d size = Eigen::Vector3d::Constant(0.3);       ///< box: full edge lengths, cm
-  std::string on;                                              ///< cap: the name of the plane that it sits on
-  std::optional<double> angle;  ///< cap: its contact angle; none: midway between the solid's two angles
-  std::filesystem::path file;   ///< mesh: as written; see Scene::locate
-  double scale = 1;             ///< mesh: applied first, about the origin
+  std::string on;               ///< cap: the name of the solid that it sits on; scatter: likewise, or empty
+  std::optional<double> angle;  ///< cap, scatter: the contact angle; none: midway between the solid's two angles
+  int count = 100;              ///< scatter: how many drops; `center` and `size` are the box that they come from
+  int seed = 1;                 ///< scatter: of its random numbers
+  double radius_min = 0.05, radius_max = 0.2;                  ///< scatter: of the balls of the drops' volumes, cm
+  ScatterSizes sizes = ScatterSizes::log_uniform;              ///< scatter
+  double gap = 0;                                              ///< scatter: the least distance between drops, cm
+  std::filesystem::path file;                                  ///< mesh: as written; see Scene::locate
+  double scale = 1;                                            ///< mesh: applied first, about the origin
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();          ///< ellipsoid, box (about center), mesh: as for solids
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();       ///< mesh: applied last, cm
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< cm/s; adds to what a mesh file holds
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< rad/s, about the centre of mass; adds as well
 };
 
+enum class SourceShape { disc };
+
+/// A disc from which liquid flows.
+struct SourceSpec {
+  SourceShape shape = SourceShape::disc;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();       ///< cm
+  Eigen::Vector3d normal{0, 0, -1};                       ///< where the liquid goes; any length but zero
+  double radius = 0.1;                                    ///< cm
+  double speed = 10;                                      ///< of the liquid through the disc, cm/s
+  double start = 0;                                       ///< s
+  double stop = std::numeric_limits<double>::infinity();  ///< s, > start
+};
+
 /// What may change a drop's connectivity.
 struct Topology {
-  bool merge = true;        ///< drops that touch become one (has no effect yet)
-  bool self_merge = false;  ///< a drop that touches itself fuses there (not available yet)
+  bool merge = true;        ///< drops that touch become one
+  bool self_merge = false;  ///< a drop that touches itself fuses there; else only beside a fresh seam
+  bool keep_air = false;    ///< air that merging shuts in stays as a bubble; else it is filled
   bool split = true;        ///< necks pinch off
 };
 
@@ -87,6 +110,8 @@ struct Scene {
   SolverOptions solver;  ///< max_iterations is not part of the file
   std::vector<SolidSpec> solids;
   std::vector<DropSpec> drops;
+  std::vector<SourceSpec> sources;
+  bool sleep = false;  ///< drops at rest are not stepped until something comes near
 
   std::filesystem::path file;       ///< where the scene came from; empty if from no file
   std::filesystem::path directory;  ///< what relative file names in it are relative to

@@ -2,8 +2,11 @@
 #pragma once
 
 #include "meniscus/scene/scene.h"
+#include "meniscus/simulation/merge_touching.h"
+#include "meniscus/simulation/source.h"
 #include "meniscus/simulation/step.h"
 
+#include <type_traits>
 #include <vector>
 
 namespace meniscus {
@@ -11,7 +14,8 @@ namespace meniscus {
 /// Drops that start within this distance of a solid start on it (cm).
 inline constexpr double contact_tolerance = 1e-9;
 
-/// The solids that a scene describes. Throws FileError, UsageError or GeometryError, naming the solid.
+/// The solids that a scene describes, and behind them the discs of its sources. Throws FileError, UsageError or
+/// GeometryError, naming the solid.
 std::vector<Solid> make_solids(const Scene& scene);
 
 /// The drops that a scene describes, numbered from 0 in its order; a mesh file of several drops
@@ -22,7 +26,8 @@ std::vector<Drop> make_drops(const Scene& scene, const std::vector<Solid>& solid
 StepOptions make_step_options(const Scene& scene);
 
 /// Drops and solids that go through time together. Drops are stepped in parallel (TBB); the result
-/// does not depend on the number of threads.
+/// does not depend on the number of threads. Drops that meet merge; those too fast for the step to see
+/// them meet take it in substeps together.
 class Simulation {
  public:
   /// Builds everything that the scene describes.
@@ -30,8 +35,8 @@ class Simulation {
   /// The scene's solids and parameters, with these drops instead of its own.
   Simulation(const Scene& scene, std::vector<Drop> drops);
 
-  /// Takes one step of scene.time_step. Throws NumericsError; the state is then that before the step
-  /// for some drops and after it for others, and fit for inspection only.
+  /// Takes one step of scene.time_step. Throws NumericsError (SoundnessError included); the state is then that before
+  /// the step for some drops and after it for others, and fit for inspection only.
   StepReport step();
 
   const std::vector<Drop>& drops() const { return drops_; }
@@ -42,11 +47,36 @@ class Simulation {
   double target_volume() const;                         ///< of all drops, cm^3
   /// For stage times: see StepOptions::clock.
   void set_clock(double (*clock)()) { options_.clock = clock; }
+  /// Whether an independent judge looks at the drops; a step then takes many times longer.
+  void set_verify(Verify verify) { options_.verify = verify; }
+
+  /// Everything that a step changes, for checkpoints (frames/checkpoint_archive.h): read into a simulation
+  /// of the same scene without drops, it goes on to the same bits. What is added to the class is added here.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("time", self.time_);
+    archive("num_steps", self.num_steps_);
+    archive("next_id", self.next_id_);
+    archive("drops", self.drops_);
+    archive("feed", self.feed_);
+    if constexpr (!std::is_const_v<Self>) self.check_restored();
+  }
 
  private:
+  void step_all(StepReport& report);
+  std::vector<Drop> step_cluster(std::vector<Drop> drops, int substeps, StepReport& report);
+  void merge(std::vector<Drop>& drops, BroadPhase& broad_phase, StepReport& report);
+  /// Throws FileError if a drop touches a solid that is not there.
+  void check_restored() const;
+  void verify(const StepReport& report, double target_volume_before) const;
+
   std::vector<Solid> solids_;
   std::vector<Drop> drops_;
   StepOptions options_;
+  Remeshers remeshers_;
+  BroadPhase paths_, places_;  ///< of swept boxes before a step and of boxes after it
+  SourceFeed feed_;
+  bool sleep_ = false;
   double time_step_ = 0, time_ = 0;
   std::size_t num_steps_ = 0;
   int next_id_ = 0;

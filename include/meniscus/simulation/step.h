@@ -11,6 +11,8 @@
 
 namespace meniscus {
 
+struct MergeReport;
+
 /// The stages of a step, in the order of the paper's Figure 1.
 enum class Stage {
   external_forces,
@@ -20,10 +22,19 @@ enum class Stage {
   contact_angle,
   volume_correction,
   remesh,
-  split
+  split,
+  merge
 };
-inline constexpr std::size_t num_stages = 8;
+inline constexpr std::size_t num_stages = 9;
 const char* stage_name(Stage stage);  ///< "external_forces", ...
+
+/// What the independent judge (state/judge.h) looks at while a simulation runs.
+enum class Verify {
+  nothing,
+  topology,    ///< after each change of topology: closed, 2-manifold, outward, finite; what debug builds do in a
+               ///< Simulation
+  everything,  ///< and after each step: no drop meets itself, and the target volumes add up
+};
 
 /// Everything a step needs to know, the same for every drop.
 struct StepOptions {
@@ -35,7 +46,10 @@ struct StepOptions {
   EdgeBand band;
   bool remesh = true;
   bool split = true;
+  bool merge = true;                          ///< drops that meet become one; read by Simulation, not by step_drop
+  bool keep_air = false, self_merge = false;  ///< see MergeOptions
   SolverOptions solver;
+  Verify verify = Verify::nothing;
   /// Seconds on some clock, for StepReport::stage_seconds; the library itself never reads one.
   double (*clock)() = nullptr;
 };
@@ -48,19 +62,63 @@ struct StepReport {
   std::size_t cuts = 0;                            ///< necks cut
   std::size_t deleted = 0;                         ///< pieces too small to go on as drops
   std::size_t limited_volume = 0;                  ///< volume corrections cut to their limit
+  std::size_t merges = 0;                          ///< pairs of drops that became one
+  std::size_t folds = 0;                           ///< drops that fused with themselves
+  std::size_t refused = 0;                         ///< pairs that met and could not be united in this step
+  std::size_t taken_back = 0;                      ///< vertices that went back so that no surface meets itself
+  std::size_t retries = 0;                         ///< ladder steps that a union took in vain
+  double overlap = 0;                              ///< cm^3 that merging drops both claimed, lost and repaired
+  double air = 0;                                  ///< cm^3 of shut-in air that was filled
+  std::size_t rejected = 0;                        ///< substeps of Level::pressure taken back for shorter ones
   int substeps = 0;                                ///< most of any drop
   int solver_iterations = 0;                       ///< most of any drop
+  std::size_t asleep = 0;                          ///< drops that were not stepped, being at rest
+  std::size_t asleep_triangles = 0;                ///< theirs; `triangles` counts them too
+  std::array<std::size_t, num_stages> skipped{};   ///< by stage: substeps of a drop in which it had nothing to do
+  double volume_added = 0;                         ///< by sources, cm^3
   double worst_volume_error = 0;                   ///< largest |V - V_target| / V_target before topology changed
 
   StepReport& operator+=(const StepReport& other);
+  StepReport& operator+=(const MergeReport& merge);
+
+  /// For checkpoints: see frames/checkpoint_archive.h.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("stage_seconds", self.stage_seconds);
+    archive("triangles", self.triangles);
+    archive("edge_operations", self.edge_operations);
+    archive("cuts", self.cuts);
+    archive("deleted", self.deleted);
+    archive("limited_volume", self.limited_volume);
+    archive("merges", self.merges);
+    archive("folds", self.folds);
+    archive("refused", self.refused);
+    archive("taken_back", self.taken_back);
+    archive("retries", self.retries);
+    archive("overlap", self.overlap);
+    archive("air", self.air);
+    archive("rejected", self.rejected);
+    archive("asleep", self.asleep);
+    archive("asleep_triangles", self.asleep_triangles);
+    archive("skipped", self.skipped);
+    archive("volume_added", self.volume_added);
+    archive("substeps", self.substeps);
+    archive("solver_iterations", self.solver_iterations);
+    archive("worst_volume_error", self.worst_volume_error);
+  }
+  void skip(Stage stage) { ++skipped[static_cast<std::size_t>(stage)]; }
 };
+
+/// How remeshing runs in a step.
+RemeshOptions remesh_options(const StepOptions& step);
 
 /// One step of one drop, from time - dt to time (s): the paper's Figure 1 from external forces to
 /// mesh split. The drop is replaced by its pieces: usually one, more if it pinched off, none if it
 /// was too small to go on.
 /// It is cut into equal substeps where one would be too long: see docs/MODELS.md.
 /// `remesher` keeps working arrays from call to call: one a thread.
-/// Throws NumericsError if a solve does not converge or a number is no longer finite.
+/// Throws NumericsError if a solve does not converge or a number is no longer finite, SoundnessError if
+/// options.verify finds a drop unsound.
 std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                             const StepOptions& options, Remesher& remesher, StepReport& report);
 

@@ -7,6 +7,10 @@
 
 namespace meniscus {
 
+/// Tells the contact line from the inside of the wetted area: a colliding vertex with a free neighbour
+/// becomes Contact::line, the others stay what they are.
+void mark_contact_line(Drop& drop);
+
 /// The neighbourhood of a vertex of the contact line (Figure 3 of the paper).
 struct ContactLineVertex {
   Eigen::Vector3d outward;  ///< unit, in the solid's tangent plane, from the wetted area to the dry
@@ -15,6 +19,8 @@ struct ContactLineVertex {
   double energy_cosine;     ///< cos(theta) by virtual work: grad A_air . outward / length
   double volume_gradient;   ///< the volume's derivative for a move along `outward`, cm^2
   double stiffness;         ///< L_ii of the water-air faces alone: the growth of the force with the move
+  Eigen::Vector3d middle;   ///< midway between the neighbours on the line
+  double turn;              ///< by which the line turns here, radians, 0 where it is straight
 };
 
 /// Looks at vertex v, whose contact state must be Contact::line. Nothing if its line length or

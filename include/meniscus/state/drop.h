@@ -7,7 +7,10 @@
 #include "meniscus/geometry/solve_spd.h"
 #include "meniscus/geometry/surface_geometry.h"
 
+#include <Eigen/Geometry>
+
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace meniscus {
@@ -21,6 +24,11 @@ enum class Contact : std::uint8_t {
 
 inline bool is_colliding(Contact contact) { return contact != Contact::free; }
 
+/// What a vertex of the contact line did last, at the level `pressure`; `advancing` off the line.
+enum class LineStatus : std::uint8_t { advancing = 0, stuck = 1, receding = 2 };
+
+struct PressureArrays;  ///< of operators/pressure.h
+
 /// The arrays that operators need within a step, kept so that an unchanged mesh allocates nothing.
 struct Workspace {
   SurfaceGeometry geometry;
@@ -30,6 +38,7 @@ struct Workspace {
   std::vector<Eigen::Vector3d> vectors;
   std::vector<double> scalars, more_scalars;
   std::vector<std::uint8_t> fixed;
+  std::shared_ptr<PressureArrays> pressure;  ///< made at first use
 };
 
 /// A drop of liquid: a closed, outward-oriented triangle mesh with velocities, contact state and
@@ -46,10 +55,14 @@ class Drop {
   /// Throws GeometryError if the mesh is empty, open, not triangular, not finite or bounds no
   /// positive volume.
   explicit Drop(Mesh mesh);
+  /// The drop that a checkpoint holds: the mesh as it is, removed elements included, with the maps that it
+  /// brings; rings start at `ring_starts` (one a vertex; removed ones do not count). Its volume may be anything.
+  /// Throws GeometryError if the mesh is empty, open, not triangular or not finite.
+  static Drop restored(Mesh mesh, const std::vector<std::uint32_t>& ring_starts);
   Drop(const Drop& other);
   Drop& operator=(const Drop& other);
-  Drop(Drop&&) = default;
-  Drop& operator=(Drop&&) = default;
+  Drop(Drop&&) noexcept = default;  // so that a growing std::vector moves drops, workspaces and all
+  Drop& operator=(Drop&&) noexcept = default;
 
   Mesh& mesh() { return mesh_; }
   const Mesh& mesh() const { return mesh_; }
@@ -72,10 +85,23 @@ class Drop {
   const std::int32_t* contact_solid() const { return num_rows() == 0 ? nullptr : &contact_solid_[VertexIndex(0)]; }
   /// 1 at vertices whose faces are still bad after remeshing: damping smooths their velocity more.
   std::uint8_t* poor_quality() { return num_rows() == 0 ? nullptr : &poor_quality_[VertexIndex(0)]; }
+  /// Steps for which the surface near this vertex is watched for folds: merging sets it at a seam, where two
+  /// sheets move towards each other; see mend_folds.
+  std::uint8_t* seam_watch() { return num_rows() == 0 ? nullptr : &seam_watch_[VertexIndex(0)]; }
+  const std::uint8_t* seam_watch() const { return num_rows() == 0 ? nullptr : &seam_watch_[VertexIndex(0)]; }
+
+  /// The state of the contact line that hysteresis needs, kept through remeshing: LineStatus as a number,
+  /// in the map "v:line_status".
+  std::uint8_t* line_statuses() { return num_rows() == 0 ? nullptr : &line_status_[VertexIndex(0)]; }
+  LineStatus line_status(std::uint32_t v) const { return static_cast<LineStatus>(line_status_[VertexIndex(v)]); }
+  void set_line_status(std::uint32_t v, LineStatus status) {
+    line_status_[VertexIndex(v)] = static_cast<std::uint8_t>(status);
+  }
 
   Connectivity& connectivity() { return connectivity_; }
   const Connectivity& connectivity() const { return connectivity_; }
   Workspace& workspace() { return workspace_; }
+  const Workspace& workspace() const { return workspace_; }
 
   /// Counts up whenever elements of the mesh changed, so that kept factors know that they are void.
   std::uint64_t topology_version() const { return topology_version_; }
@@ -97,23 +123,49 @@ class Drop {
   double volume() const { return enclosed_volume(positions(), connectivity_); }  ///< cm^3
   double target_volume() const { return target_volume_; }                        ///< cm^3
   void set_target_volume(double volume) { target_volume_ = volume; }
+  /// What sources give it in this step, cm^3/s.
+  double inflow() const { return inflow_; }
+  void set_inflow(double rate) { inflow_ = rate; }
   int id() const { return id_; }
   void set_id(int id) { id_ = id; }
+  /// For how long it has been at rest (s); counted by whoever lets drops sleep.
+  double rest_time() const { return rest_time_; }
+  void set_rest_time(double seconds) { rest_time_ = seconds; }
+
+  /// Shows a checkpoint every number that is not in the mesh; what is added to the class is added here.
+  /// What lies in vertex maps goes along by itself; workspace() is empty after a resume.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("id", self.id_);
+    archive("target_volume", self.target_volume_);
+    archive("topology_version", self.topology_version_);
+    archive("flow_version", self.flow_version_);
+    archive("rest_time", self.rest_time_);
+    archive("inflow", self.inflow_);
+  }
 
  private:
+  Drop() = default;
   void bind();
 
   Mesh mesh_;
   Mesh::Property_map<VertexIndex, Vector> velocity_, displacement_, contact_normal_;
   Mesh::Property_map<VertexIndex, Contact> contact_;
   Mesh::Property_map<VertexIndex, std::int32_t> contact_solid_;
-  Mesh::Property_map<VertexIndex, std::uint8_t> poor_quality_;
+  Mesh::Property_map<VertexIndex, std::uint8_t> poor_quality_, seam_watch_, line_status_;
   Connectivity connectivity_;
   Workspace workspace_;
   double target_volume_ = 0;
   std::uint64_t topology_version_ = 1, flow_version_ = 0;
+  double rest_time_ = 0, inflow_ = 0;
   int id_ = 0;
 };
+
+/// The box of a drop's vertices (cm); empty if it has none.
+Eigen::AlignedBox3d bounding_box(const Drop& drop);
+
+/// Whether some vertex touches solid s.
+bool hangs_from(const Drop& drop, std::int32_t solid);
 
 /// The drops of a mesh file: one for each value of the attribute "drop" (else one for each
 /// connected component), with velocities from "vx", "vy", "vz", contact state from "contact" and

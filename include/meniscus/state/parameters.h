@@ -15,6 +15,7 @@ struct Liquid {
 enum class Level {
   paper,       ///< as the paper writes it, with the least change that makes it stable
   calibrated,  ///< the same operators, with coefficients from the liquid: the same motion at any time step
+  pressure,    ///< forces from one energy, Newton's motion of the whole, a sticking contact line
 };
 
 /// The paper's own coefficients, read by Level::paper only.
@@ -33,6 +34,7 @@ struct EdgeBand {
   double edge_min = 0.04;      ///< cm, > 0
   double edge_max = 0.12;      ///< cm, > 2 edge_min
   double wetted_weight = 0.5;  ///< factor on the length of an edge inside the wetted area, in (0, 1]
+  double refinement = 1;       ///< how many times shorter edges may be where the free surface curves, >= 1
 };
 
 }  // namespace meniscus

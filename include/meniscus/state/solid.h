@@ -5,7 +5,9 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -20,6 +22,19 @@ struct SolidContact {
 };
 
 class TriangleMeshDistance;
+
+/// What makes a disc a source: liquid that comes out of it along its normal.
+struct Inflow {
+  double speed = 0;            ///< cm/s, through the whole disc
+  Eigen::Vector3d center;      ///< of the disc at offset 0, cm
+  double radius = 0;           ///< of the disc, cm
+  double start = 0, stop = 0;  ///< s
+  /// The seconds of (from, to] in which it flows.
+  double seconds_between(double from, double to) const {
+    return std::max(0.0, std::min(to, stop) - std::max(from, start));
+  }
+  double speed_at(double time) const { return time > start && time <= stop ? speed : 0; }
+};
 
 /// A solid that drops touch: its shape, how it moves (translations only) and how liquid clings to it.
 ///
@@ -41,16 +56,20 @@ class Solid {
   /// The half space on the other side of `normal` (any length > 0).
   static Solid plane(const Eigen::Vector3d& point, const Eigen::Vector3d& normal);
   static Solid sphere(const Eigen::Vector3d& center, double radius);
-  /// `size` is that of the whole box; `rotation` turns it about its centre.
+  /// `size` is that of the whole box; `rotation` turns it about its centre. Edges and corners are rounded by
+  /// `edge_radius` (cm, >= 0, cut to half the least size), so that the normal turns with the surface there.
   static Solid box(const Eigen::Vector3d& center, const Eigen::Vector3d& size,
-                   const Eigen::Matrix3d& rotation = Eigen::Matrix3d::Identity());
-  /// From a to b, with flat ends.
-  static Solid cylinder(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius);
+                   const Eigen::Matrix3d& rotation = Eigen::Matrix3d::Identity(), double edge_radius = 0);
+  /// From a to b, with flat ends, whose rims are rounded likewise.
+  static Solid cylinder(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius, double edge_radius = 0);
   /// From a to b, with half balls beyond both.
   static Solid capsule(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius);
   /// A mesh that bounds a volume (see Inspection); throws GeometryError otherwise. The sign is that
   /// of the angle-weighted normal of the nearest face, edge or vertex (Baerentzen and Aanaes 2005).
   static Solid mesh(const MeshData& data);
+  /// The mouth of a source: liquid is on the side that `normal` (any length > 0) points to. What comes to the other
+  /// side within a radius of the disc is inside it.
+  static Solid disc(const Eigen::Vector3d& center, const Eigen::Vector3d& normal, double radius);
 
   /// Moves it at constant velocity (cm/s), from where its shape says at time 0.
   /// Throws UsageError if it is not finite.
@@ -68,6 +87,12 @@ class Solid {
   /// Its offset from where its shape says (cm).
   Eigen::Vector3d offset(double time) const;
 
+  /// Where the contact line of a source is held: the point of the disc's rim on the side of x if x is in its
+  /// outer third, else (and for any other shape) the nearest point.
+  Eigen::Vector3d rim_point(const Eigen::Vector3d& x, double time) const;
+
+  bool is_plane() const { return std::holds_alternative<Plane>(shape_); }
+
   /// Whether anything in the box may be within `margin` (cm) of the solid or inside it: a fast test
   /// that misses nothing but rounding. A box of one point will do, an empty one is near nothing.
   bool is_near(const Eigen::AlignedBox3d& box, double time, double margin) const;
@@ -76,6 +101,7 @@ class Solid {
   double advancing_angle = 1.57079632679489662;  ///< theta_a, radians, through the liquid
   double receding_angle = 1.57079632679489662;   ///< theta_r, radians, at most theta_a
   double friction_speed = 0.1;                   ///< epsilon of Eq 2, cm/s
+  std::optional<Inflow> inflow;                  ///< of a source's disc
 
  private:
   struct Plane {
@@ -88,10 +114,15 @@ class Solid {
   struct Box {
     Eigen::Vector3d center, half_size;
     Eigen::Matrix3d rotation;  // from the box' axes to ours
+    double edge_radius;
   };
   struct Cylinder {
     Eigen::Vector3d start, axis;  // unit
-    double length, radius;
+    double length, radius, edge_radius;
+  };
+  struct Disc {
+    Eigen::Vector3d center, normal;
+    double radius;
   };
   struct Capsule {
     Eigen::Vector3d start, axis;
@@ -100,7 +131,7 @@ class Solid {
   struct TriangleMesh {
     std::shared_ptr<const TriangleMeshDistance> distance;
   };
-  using Shape = std::variant<Plane, Sphere, Box, Cylinder, Capsule, TriangleMesh>;
+  using Shape = std::variant<Plane, Sphere, Box, Cylinder, Capsule, TriangleMesh, Disc>;
 
   explicit Solid(Shape shape) : shape_(std::move(shape)) {}
   static SolidContact contact(const Plane& plane, const Eigen::Vector3d& x);
@@ -109,6 +140,7 @@ class Solid {
   static SolidContact contact(const Cylinder& cylinder, const Eigen::Vector3d& x);
   static SolidContact contact(const Capsule& capsule, const Eigen::Vector3d& x);
   static SolidContact contact(const TriangleMesh& mesh, const Eigen::Vector3d& x);
+  static SolidContact contact(const Disc& disc, const Eigen::Vector3d& x);
 
   Shape shape_;
   Eigen::AlignedBox3d bounds_;  // at offset 0; empty for a plane

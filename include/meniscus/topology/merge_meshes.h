@@ -8,7 +8,7 @@
 /// Booleans of meshes as files hold them, with their attributes.
 namespace meniscus {
 
-struct MergeReport {
+struct MeshMergeReport {
   std::size_t joins = 0;                                ///< Booleans of two meshes that were done
   std::size_t crossings = 0;                            ///< of those, between surfaces that met
   int retries = 0;                                      ///< ladder steps that failed, all in all
@@ -32,12 +32,12 @@ struct MergeReport {
 /// Inputs are checked once, the result at the end. Throws UsageError for no meshes, GeometryError as
 /// require_sound does.
 std::optional<MeshData> merge_meshes(const std::vector<MeshData>& meshes, BooleanOperation operation,
-                                     const BooleanOptions& options, MergeReport& report);
+                                     const BooleanOptions& options, MeshMergeReport& report);
 
 /// Two closed parts of a mesh, inside and outside a cutter. Attributes inside the cut come from the
 /// nearest vertex on its rim. Nothing if refused. Throws as require_sound does.
 std::optional<std::pair<MeshData, MeshData>> divide(const MeshData& mesh, const MeshData& cutter,
-                                                    const BooleanOptions& options, MergeReport& report);
+                                                    const BooleanOptions& options, MeshMergeReport& report);
 
 /// A box that holds all of a mesh with normal.x <= offset, and one of its faces in that plane: a cutter.
 /// Throws UsageError unless the normal is finite and not zero; the offset goes with its length.

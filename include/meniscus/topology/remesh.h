@@ -49,7 +49,7 @@ struct RemeshReport {
 };
 
 /// Throws UsageError unless 0 < edge_min, 2 edge_min < edge_max, all finite, the wetted weight in
-/// (0, 1], the smoothing in [0, 1] and max_passes >= 1.
+/// (0, 1], the refinement at least 1, the smoothing in [0, 1] and max_passes >= 1.
 void check_options(const RemeshOptions& options);
 
 /// Splits, collapses and flips until edges lie in the band, keeping its working arrays from call to
@@ -58,8 +58,10 @@ void check_options(const RemeshOptions& options);
 /// Splits edges longer than edge_max, longest first, at the curved midpoint
 /// (a + b)/2 - ((e.n_a) n_a - (e.n_b) n_b)/8, e = b - a; collapses edges shorter than edge_min,
 /// shortest first, to the point that keeps the volume; flips edges of negative cotangent weight, but
-/// none of the contact line. Inside the wetted area lengths count times band.wetted_weight. A
-/// collapse that a 3-cycle forbids cuts the drop along that cycle and caps both sides.
+/// none of the contact line. Inside the wetted area lengths count times band.wetted_weight. Where an edge in the
+/// middle of the band would turn the free surface's normal by more than 0.5 radians, lengths count times as much
+/// more, at most band.refinement times. A collapse that a 3-cycle forbids cuts the drop along that cycle and caps both
+/// sides.
 ///
 /// At a sharp edge, or a vertex that features keep, the midpoint's correction is left out. On solids,
 /// no operation makes a face of three colliding vertices that does not face its solid; where moving
@@ -81,8 +83,8 @@ class Remesher {
   Remesher(Remesher&&) noexcept;
   Remesher& operator=(Remesher&&) noexcept;
 
-  /// Precondition: options pass check_options. Throws GeometryError if edges are so long for the
-  /// band that more than max_faces faces would be made (a sign of a diverged simulation).
+  /// Precondition: options pass check_options. Throws GeometryError if edges are so long for the band that
+  /// more than max_faces faces would be made (a sign of a diverged simulation).
   RemeshReport remesh(Drop& drop, const RemeshOptions& options);
 
   struct Scratch;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meniscus/state/drop.h"
+
+#include <vector>
+
+namespace meniscus {
+
+/// What a change of a drop's elements (merge, split, remesh) keeps, for a liquid of density 1, so that
+/// mass and volume are one. The ledgers of drops that become one add up.
+struct Ledger {
+  double volume = 0;                                           ///< V, enclosed, cm^3
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();            ///< V X_cm, cm^4
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();          ///< P, cm^4/s
+  Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< L about the origin, cm^5/s
+
+  Eigen::Vector3d center() const { return moment / volume; }  ///< X_cm, cm; V > 0
+  Ledger& operator+=(const Ledger& other);
+};
+
+/// A drop's ledger as its surface tells it: the enclosed volume and its centre; P = surface_momentum about
+/// X_cm; L = X_cm x P + I omega with the enclosed volume's moment of inertia I and the rotation omega of
+/// fit_rigid_motion. All zero without enclosed volume.
+Ledger measure_ledger(const Drop& drop);
+
+/// Moves and accelerates the drop so that measure_ledger gives `ledger`:
+/// 1. vertices off solids go along their normals until the volume fits;
+/// 2. all of the drop goes to X_cm;
+/// 3. u += c + s n at vertices off solids, with c and s such that the flux is 0 and P fits;
+/// 4. u += (omega - omega_fit) x (x - X_cm), which has no flux and no P.
+/// A drop on a solid skips 2 and 4: the solid holds its place and its spin. Exact to rounding, but for the
+/// volume (secants, 1e-12). Where nothing is free to move, or the volume is not positive, it does nothing.
+/// Writes positions and velocities; the target volume stays. Without `with_volume`, 1 is left out: the volume is
+/// put right later.
+void restore_ledger(Drop& drop, const Ledger& ledger, bool with_volume = true);
+
+/// The same for a drop that fell into pieces: what the pieces' own ledgers do not sum up to is shared
+/// among them by volume.
+void restore_ledger(std::vector<Drop>& pieces, const Ledger& ledger, bool with_volume = true);
+
+/// The centre of mass of the enclosed volume (cm); zero if the volume vanishes.
+Eigen::Vector3d volume_centroid(const Drop& drop);
+
+/// The linear momentum that the velocities on the surface tell of, rho oint (x - c) (u.n) dS about the
+/// point c: per face (A/12) sum_ij (1 + delta_ij) (x_i - c) (u_j.n), exact for velocities and positions
+/// that are linear on faces (g cm/s). For a flow that keeps the volume it is the integral of rho u
+/// and does not depend on c.
+Eigen::Vector3d surface_momentum(const Drop& drop, double density, const Eigen::Vector3d& c);
+
+}  // namespace meniscus

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meniscus/state/drop.h"
+
+namespace meniscus {
+
+/// A vertex that is there and may move along its normal: not on a solid.
+inline bool is_off_solids(const Drop& drop, std::uint32_t i) {
+  return drop.connectivity().degree(i) > 0 && !is_colliding(drop.contact()[i]);
+}
+
+struct VolumeOffset {
+  double error_before = 0;  ///< V - V_wanted as found, cm^3
+  double error = 0;         ///< as left
+  double offset = 0;        ///< d, cm
+  bool limited = false;     ///< d was cut to its bounds
+};
+
+/// Offsets the surface off solids along the normals of `geometry` by d = (V_wanted - V)/A, by secants, until the
+/// volume fits to 1e-12; d stays within [least, most] (cm). Global volume correction, Section 4.4 of the
+/// paper. Writes positions only. Does nothing where no vertex is off solids.
+VolumeOffset offset_to_volume(Drop& drop, const SurfaceGeometry& geometry, double volume, double least, double most);
+
+}  // namespace meniscus

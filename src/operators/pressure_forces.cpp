@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pressure_arrays.h"
+
+namespace meniscus {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The potential of gravity and, in flight, of the rotation: -rho (g . x + |rotation x r|^2 / 2).
+void find_heads(const Drop& drop, const PressureOptions& options, PressureSurface& surface) {
+  const ConstColumns x = drop.positions();
+  const double density = options.liquid.density;
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
+    const Vector3d r = x.col(v) - surface.center;
+    surface.head[v] = -density * (options.gravity.dot(r) + 0.5 * surface.rotation.cross(r).squaredNorm());
+  }
+}
+
+/// d(sigma A_air + E)/dx at v, E the integral of the head over the liquid: exact on each triangle for a
+/// head that is linear, N (h_1 + h_2 + h_3 + h_v)/12, N its area vector.
+Vector3d energy_gradient(const Drop& drop, const PressureSurface& surface, double tension, std::uint32_t v) {
+  const ConstColumns x = drop.positions();
+  const auto& faces = drop.workspace().geometry.faces();
+  const Ring ring = drop.connectivity().ring(v);
+  Vector3d area_gradient = Vector3d::Zero(), head_gradient = Vector3d::Zero();
+  for (int k = 0; k < ring.degree; ++k) {
+    const std::uint32_t f = ring.corner[k] / 3, corner = ring.corner[k] - 3 * f;
+    if (surface.wet_face[f] != 0) continue;
+    const std::uint32_t p = ring.neighbour[k], q = ring.neighbour[k + 1 == ring.degree ? 0 : k + 1];
+    const FaceGeometry& face = faces[f];
+    area_gradient += 0.5 * (face.cotangent[(corner + 2) % 3] * (x.col(v) - x.col(p)) +
+                            face.cotangent[(corner + 1) % 3] * (x.col(v) - x.col(q)));
+    const double head = (2 * surface.head[v] + surface.head[p] + surface.head[q]) / 12;
+    head_gradient += head * Vector3d(face.area_vector[0], face.area_vector[1], face.area_vector[2]);
+  }
+  return tension * area_gradient + head_gradient;
+}
+
+/// Gives a drop in flight the force rho V g as a whole.
+void make_it_fall(const PressureOptions& options, PressureSurface& surface) {
+  Vector3d total = Vector3d::Zero();
+  for (std::size_t v = 0; v < surface.force.size(); ++v) total += surface.force[v] * surface.form[v];
+  const Vector3d missing = options.liquid.density * surface.volume * options.gravity - total;
+  for (std::size_t v = 0; v < surface.force.size(); ++v)
+    surface.force[v] += surface.moment[v].dot(missing) / surface.volume;
+}
+
+}  // namespace
+
+void find_forces(const Drop& drop, const PressureOptions& options, PressureSurface& surface) {
+  find_heads(drop, options, surface);
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
+    surface.force[v] =
+        !is_moving(surface.role[v])
+            ? 0
+            : -surface.direction[v].dot(energy_gradient(drop, surface, options.liquid.surface_tension, v));
+  if (!surface.in_contact) make_it_fall(options, surface);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/core/error.h"
+#include "meniscus/geometry/rigid_motion.h"
+#include "meniscus/state/judge.h"
+#include "meniscus/topology/split.h"
+#include "step_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+/// Throws SoundnessError for a drop that a change of topology left unsound.
+void verify_topology(const Drop& drop, const char* after) {
+  std::string defect = judge::connectivity_defect(drop);
+  if (defect.empty()) defect = judge::topology_defect(drop.mesh());
+  if (!defect.empty()) throw SoundnessError(fmt::format("drop {} is unsound after {}: {}", drop.id(), after, defect));
+}
+
+/// The volume of a regular tetrahedron (cm^3): a piece with less has no room for edges in the band.
+double tetrahedron_volume(double edge) { return edge * edge * edge / std::sqrt(72.0); }
+
+/// A piece smaller than edges are long has no shape to change: of the violent motion of the neck that it was torn
+/// from it keeps the translation. Its few vertices would turn it over otherwise.
+void stiffen_speck(Drop& piece, const EdgeBand& band) {
+  if (ball_radius(piece) > band.edge_max) return;
+  SurfaceGeometry& geometry = piece.workspace().geometry;
+  geometry.compute(std::as_const(piece).positions(), piece.connectivity());
+  const Eigen::Vector3d mean = fit_rigid_motion(piece.positions(), piece.velocities(), geometry).translation;
+  piece.velocities().colwise() = mean;
+}
+
+}  // namespace
+
+void keep_inflow(std::vector<Drop>& pieces, const std::vector<Solid>& solids, double inflow) {
+  if (inflow == 0 || pieces.empty()) return;
+  for (Drop& piece : pieces) piece.set_inflow(0);
+  const auto hangs_from_source = [&](const Drop& piece) {
+    for (std::size_t s = 0; s < solids.size(); ++s)
+      if (solids[s].inflow && hangs_from(piece, static_cast<std::int32_t>(s))) return true;
+    return false;
+  };
+  const auto fed = std::find_if(pieces.begin(), pieces.end(), hangs_from_source);
+  (fed != pieces.end() ? *fed : pieces.front()).set_inflow(inflow);
+}
+
+RemeshOptions remesh_options(const StepOptions& step) {
+  RemeshOptions options;
+  options.band = step.band;
+  options.cut_necks = step.split;
+  return options;
+}
+
+MergeOptions merge_options(const StepOptions& step) {
+  MergeOptions options;
+  options.remesh = remesh_options(step);
+  options.keep_air = step.keep_air;
+  options.self_merge = step.self_merge;
+  return options;
+}
+
+StepReport& StepReport::operator+=(const MergeReport& merge) {
+  merges += merge.merges;
+  folds += merge.folds;
+  refused += merge.refused;
+  taken_back += merge.taken_back;
+  retries += merge.retries;
+  cuts += merge.cuts;
+  deleted += merge.deleted;
+  overlap += merge.overlap;
+  air += merge.air;
+  return *this;
+}
+
+std::vector<Drop> remesh_and_split(Drop drop, const Eigen::Matrix3Xd& before, const StepOptions& options,
+                                   Remesher& remesher, StageClock& clock, StepReport& report) {
+  if (options.merge) watch_violent_faces(drop, before);
+  if (options.merge && may_fold(drop, merge_options(options))) {
+    MergeReport merge;
+    auto mended = mend_folds(drop, before, merge_options(options), remesher, merge);
+    report += merge;
+    clock.done(Stage::merge);
+    if (mended) {
+      if (options.verify != Verify::nothing)
+        for (const Drop& piece : *mended) verify_topology(piece, "a fold was united");
+      return *std::move(mended);
+    }
+  }
+  std::vector<Drop> pieces;
+  RemeshReport remeshed;
+  if (options.remesh) remeshed = remesher.remesh(drop, remesh_options(options));
+  if (!remeshed.changed()) report.skip(Stage::remesh);
+  report.edge_operations += remeshed.splits + remeshed.collapses + remeshed.flips + remeshed.lifts;
+  report.cuts += remeshed.cuts;
+  clock.done(Stage::remesh);
+  if (options.verify != Verify::nothing && remeshed.cuts == 0) verify_topology(drop, "remeshing");
+
+  if (remeshed.cuts > 0) {
+    SplitReport split;
+    pieces = split_components(std::move(drop), split, tetrahedron_volume(options.band.edge_min));
+    report.deleted += split.deleted + split.deleted_empty;
+    for (Drop& piece : pieces) stiffen_speck(piece, options.band);
+    if (options.verify != Verify::nothing)
+      for (const Drop& piece : pieces) verify_topology(piece, "a split");
+  } else {
+    pieces.push_back(std::move(drop));
+    report.skip(Stage::split);
+  }
+  clock.done(Stage::split);
+  return pieces;
+}
+
+}  // namespace meniscus

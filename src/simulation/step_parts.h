@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meniscus/simulation/step.h"
+#include "meniscus/topology/merge.h"
+
+#include <cmath>
+
+namespace meniscus {
+
+/// Adds up seconds by stage, if there is a clock.
+class StageClock {
+ public:
+  StageClock(double (*clock)(), StepReport& report) : clock_(clock), report_(report), last_(clock ? clock() : 0) {}
+  void done(Stage stage) {
+    if (!clock_) return;
+    const double now = clock_();
+    report_.stage_seconds[static_cast<std::size_t>(stage)] += now - last_;
+    last_ = now;
+  }
+
+ private:
+  double (*clock_)();
+  StepReport& report_;
+  double last_;
+};
+
+/// The radius of the ball of the drop's volume (cm).
+inline double ball_radius(const Drop& drop) { return std::cbrt(drop.target_volume() * 0.75 / 3.14159265358979323846); }
+
+/// What sources gave the drop (cm^3/s) goes to the one of its pieces that hangs from a source; to the first if none
+/// does.
+void keep_inflow(std::vector<Drop>& pieces, const std::vector<Solid>& solids, double inflow);
+
+/// How drops merge in a step.
+MergeOptions merge_options(const StepOptions& step);
+
+/// The end of every substep: mends folds (`before`: the positions at its start), brings the edges into the band and
+/// takes apart what that cut.
+std::vector<Drop> remesh_and_split(Drop drop, const Eigen::Matrix3Xd& before, const StepOptions& options,
+                                   Remesher& remesher, StageClock& clock, StepReport& report);
+
+/// step_drop at Level::pressure: substeps as long as the motion allows, each tried and taken back if it was
+/// too long.
+std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, double time, double dt,
+                                   const StepOptions& options, Remesher& remesher, StepReport& report);
+
+}  // namespace meniscus

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/operators/pressure.h"
+#include "step_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+/// A substep is at least this share of the step, whatever it does.
+constexpr double least_share = 1.0 / 1024;
+/// The start for a substep moves the fastest vertex by this share of edge_min.
+constexpr double first_guess = 0.5;
+/// The conjugate gradients stop here even if the scene asks for more: what is left is put right at the next
+/// substep, and neither free fall nor the volume depends on it.
+constexpr double least_tolerance = 1e-4;
+
+PressureOptions pressure_options(const StepOptions& step) {
+  PressureOptions options;
+  options.gravity = step.gravity;
+  options.liquid = step.liquid;
+  options.edge_min = step.band.edge_min;
+  options.tolerance = std::max(step.solver.tolerance, least_tolerance);
+  options.max_iterations = step.solver.max_iterations;
+  if (!step.remesh) options.smoothing = 0;
+  return options;
+}
+
+/// A drop on its way through the step.
+struct Traveller {
+  Drop drop;
+  double left;  ///< s to the end of the step
+  double next;  ///< s to try
+  int substeps;
+};
+
+/// One substep of at most traveller.left. Writes how long it was and what to try next.
+void take_substep(Traveller& traveller, const std::vector<Solid>& solids, double time, double shortest,
+                  const StepOptions& options, StageClock& clock, StepReport& report) {
+  const PressureOptions pressure = pressure_options(options);
+  PressureStep step(traveller.drop, solids, time - traveller.left, pressure);
+  clock.done(Stage::geometry);
+  double dt = std::min(traveller.next, traveller.left);
+  while (dt > shortest && (dt > step.longest_step() || step.top_speed() * dt > first_guess * pressure.edge_min))
+    dt *= 0.5;
+  while (!step.solve(dt) && dt > shortest) {
+    dt *= 0.5;
+    ++report.rejected;
+  }
+  clock.done(Stage::curvature_flow);
+  traveller.drop.set_target_volume(traveller.drop.target_volume() + traveller.drop.inflow() * dt);
+  const PressureReport done = step.move();
+  report.solver_iterations = std::max(report.solver_iterations, done.iterations);
+  report.worst_volume_error = std::max(report.worst_volume_error, std::abs(done.relative_volume_error));
+  clock.done(Stage::volume_correction);
+  traveller.left -= dt;
+  if (traveller.left < 0.5 * shortest) traveller.left = 0;
+  traveller.next = 2 * dt;
+  ++traveller.substeps;
+}
+
+}  // namespace
+
+std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, double time, double dt,
+                                   const StepOptions& options, Remesher& remesher, StepReport& report) {
+  StageClock clock(options.clock, report);
+  std::vector<Traveller> on_the_way;
+  on_the_way.push_back({std::move(drop), dt, dt, 0});
+  std::vector<Drop> arrived;
+  while (!on_the_way.empty()) {  // pieces arrive in the order in which they split off
+    Traveller traveller = std::move(on_the_way.back());
+    on_the_way.pop_back();
+    if (!(traveller.left > 0)) {
+      report.triangles += traveller.drop.mesh().number_of_faces();
+      arrived.push_back(std::move(traveller.drop));
+      continue;
+    }
+    const Eigen::Matrix3Xd before = std::as_const(traveller.drop).positions();
+    take_substep(traveller, solids, time, least_share * dt, options, clock, report);
+    report.substeps = std::max(report.substeps, traveller.substeps);
+    const double inflow = traveller.drop.inflow();
+    std::vector<Drop> pieces = remesh_and_split(std::move(traveller.drop), before, options, remesher, clock, report);
+    if (pieces.size() > 1) keep_inflow(pieces, solids, inflow);
+    for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
+      on_the_way.push_back({std::move(*piece), traveller.left, traveller.next, traveller.substeps});
+  }
+  return arrived;
+}
+
+}  // namespace meniscus

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/state/ledger.h"
+
+#include "meniscus/geometry/rigid_motion.h"
+#include "meniscus/state/offset_to_volume.h"
+
+#include <Eigen/Dense>
+
+#include <limits>
+
+namespace meniscus {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Matrix4d;
+using Eigen::Vector3d;
+using Eigen::Vector4d;
+
+/// Calls visit(a, b, c) for each face that is there.
+template <class Visit>
+void for_each_face(const Drop& drop, Visit visit) {
+  for (const auto& [a, b, c] : drop.connectivity().triangles())
+    if (a != Connectivity::removed) visit(a, b, c);
+}
+
+/// Where positions are measured from, so that a drop far from the origin loses no digits.
+Vector3d reference_point(const Drop& drop) {
+  for (const auto& [a, b, c] : drop.connectivity().triangles())
+    if (a != Connectivity::removed) return drop.positions().col(a);
+  return Vector3d::Zero();
+}
+
+/// Integrals over the enclosed volume.
+struct VolumeMoments {
+  double volume = 0;
+  Vector3d center = Vector3d::Zero();
+  Matrix3d inertia = Matrix3d::Zero();  ///< about the centre, density 1
+};
+
+VolumeMoments volume_moments(const Drop& drop) {
+  const ConstColumns x = drop.positions();
+  const Vector3d origin = reference_point(drop);
+  VolumeMoments moments;
+  Vector3d first = Vector3d::Zero();
+  Matrix3d second = Matrix3d::Zero();
+  for_each_face(drop, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const Vector3d p = x.col(a) - origin, q = x.col(b) - origin, r = x.col(c) - origin, s = p + q + r;
+    const double tetrahedron = p.dot(q.cross(r)) / 6;
+    moments.volume += tetrahedron;
+    first += tetrahedron / 4 * s;
+    second += tetrahedron / 20 * (p * p.transpose() + q * q.transpose() + r * r.transpose() + s * s.transpose());
+  });
+  if (moments.volume == 0) return moments;
+  const Vector3d mean = first / moments.volume;
+  moments.center = origin + mean;
+  second -= moments.volume * mean * mean.transpose();
+  moments.inertia = second.trace() * Matrix3d::Identity() - second;
+  return moments;
+}
+
+Vector3d fitted_rotation(const Drop& drop, const SurfaceGeometry& geometry) {
+  return fit_rigid_motion(drop.positions(), drop.velocities(), geometry).rotation;
+}
+
+bool touches_solid(const Drop& drop) {
+  return std::any_of(drop.contact(), drop.contact() + drop.num_rows(), is_colliding);
+}
+
+/// Flux and momentum about `center` of a velocity field, as one vector (flux, P).
+template <class Field>
+Vector4d flux_and_momentum(const Drop& drop, const Vector3d& center, Field u) {
+  const ConstColumns x = drop.positions();
+  Vector4d sum = Vector4d::Zero();
+  for_each_face(drop, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    const Vector3d p = x.col(i), q = x.col(j), r = x.col(k);
+    const Vector3d area = 0.5 * (q - p).cross(r - p);
+    const double flux_i = u(i).dot(area), flux_j = u(j).dot(area), flux_k = u(k).dot(area);
+    const double flux = flux_i + flux_j + flux_k;
+    sum[0] += flux / 3;
+    sum.tail<3>() +=
+        ((flux + flux_i) * (p - center) + (flux + flux_j) * (q - center) + (flux + flux_k) * (r - center)) / 12;
+  });
+  return sum;
+}
+
+/// u += c + s n off solids, so that the flux vanishes and the momentum about `center` is the wanted one.
+void fit_momentum(Drop& drop, const SurfaceGeometry& geometry, const Vector3d& center, const Vector3d& momentum) {
+  Columns u = drop.velocities();
+  const auto basis = [&](int k) {
+    return [&drop, &geometry, k](std::uint32_t i) -> Vector3d {
+      if (!is_off_solids(drop, i)) return Vector3d::Zero();
+      return k < 3 ? Vector3d(Vector3d::Unit(k)) : geometry.normal(i);
+    };
+  };
+  Matrix4d matrix;
+  for (int k = 0; k < 4; ++k) matrix.col(k) = flux_and_momentum(drop, center, basis(k));
+  // In units in which a sphere of radius 1 gives numbers near 1.
+  const double length = std::cbrt(geometry.volume());
+  const Vector4d scale(length * length, length * length * length, length * length * length, length * length * length);
+  const Eigen::FullPivLU<Matrix4d> solver(scale.cwiseInverse().asDiagonal() * matrix);
+  if (!solver.isInvertible()) return;
+  for (int round = 0; round < 2; ++round) {  // the second takes the rounding of the first
+    Vector4d wanted;
+    wanted << 0, momentum;
+    wanted -= flux_and_momentum(drop, center, [&](std::uint32_t i) -> Vector3d { return u.col(i); });
+    const Vector4d c = solver.solve(wanted.cwiseQuotient(scale));
+    for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+      if (is_off_solids(drop, i)) u.col(i) += c.head<3>() + c[3] * geometry.normal(i);
+  }
+}
+
+}  // namespace
+
+Ledger& Ledger::operator+=(const Ledger& other) {
+  volume += other.volume;
+  moment += other.moment;
+  momentum += other.momentum;
+  angular_momentum += other.angular_momentum;
+  return *this;
+}
+
+Ledger measure_ledger(const Drop& drop) {
+  const VolumeMoments moments = volume_moments(drop);
+  if (!(moments.volume > 0)) return {};
+  SurfaceGeometry geometry;
+  geometry.compute(drop.positions(), drop.connectivity());
+  Ledger ledger;
+  ledger.volume = moments.volume;
+  ledger.moment = moments.volume * moments.center;
+  ledger.momentum = surface_momentum(drop, 1, moments.center);
+  ledger.angular_momentum = moments.center.cross(ledger.momentum) + moments.inertia * fitted_rotation(drop, geometry);
+  return ledger;
+}
+
+void restore_ledger(Drop& drop, const Ledger& ledger, bool with_volume) {
+  if (!(ledger.volume > 0)) return;
+  SurfaceGeometry geometry;
+  geometry.compute(std::as_const(drop).positions(), drop.connectivity());
+  constexpr double unbounded = std::numeric_limits<double>::infinity();
+  if (with_volume) offset_to_volume(drop, geometry, ledger.volume, -unbounded, unbounded);
+  geometry.compute(std::as_const(drop).positions(), drop.connectivity());
+  VolumeMoments moments = volume_moments(drop);
+  if (!(moments.volume > 0)) return;
+  const bool is_free = !touches_solid(drop);
+  if (is_free) {
+    const Vector3d shift = ledger.center() - moments.center;
+    drop.positions().colwise() += shift;
+    moments.center += shift;
+  }
+  fit_momentum(drop, geometry, moments.center, ledger.momentum);
+  if (!is_free) return;
+  const Vector3d spin = ledger.angular_momentum - moments.center.cross(ledger.momentum);
+  const Vector3d turn = moments.inertia.ldlt().solve(spin) - fitted_rotation(drop, geometry);
+  if (!turn.allFinite()) return;
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+    drop.velocities().col(i) += turn.cross(Vector3d(drop.positions().col(i) - moments.center));
+}
+
+void restore_ledger(std::vector<Drop>& pieces, const Ledger& ledger, bool with_volume) {
+  std::vector<Ledger> own;
+  Ledger sum;
+  for (const Drop& piece : pieces) {
+    own.push_back(measure_ledger(piece));
+    sum += own.back();
+  }
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const double share = own[k].volume / sum.volume;
+    own[k].volume += share * (ledger.volume - sum.volume);
+    own[k].moment += share * (ledger.moment - sum.moment);
+    own[k].momentum += share * (ledger.momentum - sum.momentum);
+    own[k].angular_momentum += share * (ledger.angular_momentum - sum.angular_momentum);
+    restore_ledger(pieces[k], own[k], with_volume);
+  }
+}
+
+Vector3d volume_centroid(const Drop& drop) { return volume_moments(drop).center; }
+
+Vector3d surface_momentum(const Drop& drop, double density, const Vector3d& c) {
+  const ConstColumns u = drop.velocities();
+  const Vector4d sum = flux_and_momentum(drop, c, [&](std::uint32_t i) -> Vector3d { return u.col(i); });
+  return density * sum.tail<3>();
+}
+
+}  // namespace meniscus

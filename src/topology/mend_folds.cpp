@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "face_grid.h"
+#include "meniscus/geometry/rigid_motion.h"
+#include "meniscus/geometry/self_intersection.h"
+#include "meniscus/topology/self_union.h"
+#include "merge_parts.h"
+#include "sheet_guard.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+std::array<double, 3> to_array(const Eigen::Vector3d& x) { return {x.x(), x.y(), x.z()}; }
+
+/// A drop's points as they would be had it only moved as a rigid body since `before`; it did not move at all if a
+/// solid holds it. Sets `velocity` to that of the same motion.
+Eigen::Matrix3Xd carried_along(const Drop& drop, const Eigen::Matrix3Xd& before, RigidMotion& velocity) {
+  velocity = RigidMotion();
+  if (std::any_of(drop.contact(), drop.contact() + drop.num_rows(), is_colliding)) {
+    velocity.translation = drop.velocities().rowwise().mean();
+    return before;
+  }
+  SurfaceGeometry geometry;
+  geometry.compute(drop.positions(), drop.connectivity());
+  const Eigen::Matrix3Xd moved = drop.positions() - before;
+  const RigidMotion motion = fit_rigid_motion(drop.positions(), ConstColumns(moved.data(), moved.cols()), geometry);
+  velocity = fit_rigid_motion(drop.positions(), drop.velocities(), geometry);
+  Eigen::Matrix3Xd carried = before;
+  for (Eigen::Index i = 0; i < before.cols(); ++i) carried.col(i) += motion.at(drop.positions().col(i) - moved.col(i));
+  return carried;
+}
+
+/// An edge that turns or stretches by more than this share of its length in a substep.
+constexpr double large_change = 0.5;
+
+/// What a folded surface encloses tells of the drop's place and momentum if it is off by no more than this.
+constexpr double largest_volume_error = 0.2;
+
+enum class Folds { between_neighbours, all };
+
+bool share_a_vertex(const Triangle& s, const Triangle& t) {
+  return std::any_of(s.begin(), s.end(), [&](std::uint32_t v) { return v == t[0] || v == t[1] || v == t[2]; });
+}
+
+/// Moves a vertex halfway to the mean of its neighbours, or less, if its faces then meet nothing.
+void relax(Drop& drop, std::uint32_t v, SheetGuard& guard) {
+  const Ring ring = drop.connectivity().ring(v);
+  const Eigen::Vector3d x = drop.positions().col(v);
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (int k = 0; k < ring.degree; ++k) mean += drop.positions().col(ring.neighbour[k]);
+  mean /= ring.degree;
+  std::vector<SheetGuard::NewFace> faces(static_cast<std::size_t>(ring.degree));
+  for (const double share : {0.5, 0.1}) {
+    const Eigen::Vector3d moved = x + share * (mean - x);
+    for (int k = 0; k < ring.degree; ++k) {
+      const std::uint32_t p = ring.neighbour[k], q = ring.neighbour[(k + 1) % ring.degree];
+      faces[static_cast<std::size_t>(k)] = {{v, p, q}, {moved, drop.positions().col(p), drop.positions().col(q)}};
+    }
+    if (guard.would_meet(faces, {v}, {})) continue;
+    drop.positions().col(v) = moved;
+    for (int k = 0; k < ring.degree; ++k) guard.add(ring.corner[k] / 3);
+    return;
+  }
+}
+
+/// Relaxes vertices one after another.
+void relax(Drop& drop, const std::vector<std::uint32_t>& vertices, const Eigen::AlignedBox3d& region, double cell) {
+  if (vertices.empty()) return;
+  SheetGuard guard(drop, region, cell);
+  for (const auto v : vertices)
+    if (!is_colliding(drop.contact()[v])) relax(drop, v, guard);
+}
+
+/// Takes vertices back until no faces of the region meet; lists them. See mend_folds.
+std::vector<std::uint32_t> take_back(Drop& drop, const Eigen::Matrix3Xd& before, const Eigen::AlignedBox3d& region,
+                                     Folds folds) {
+  constexpr int narrow_rounds = 6, most_rounds = 16;
+  constexpr std::size_t most_pairs = 1000;
+  if (before.cols() != static_cast<Eigen::Index>(drop.num_rows())) return {};
+  RigidMotion velocity;
+  const Eigen::Matrix3Xd sound = carried_along(std::as_const(drop), before, velocity);
+  MeshData soup = soup_in(drop, region);
+  std::vector<std::uint8_t> is_back(drop.num_rows(), 0);
+  std::vector<std::uint32_t> taken;
+  const auto take = [&](std::uint32_t v) {
+    if (is_back[v] != 0 || drop.connectivity().degree(v) == 0) return;
+    is_back[v] = 1;
+    taken.push_back(v);
+    drop.positions().col(v) = sound.col(v);
+    if (!is_colliding(drop.contact()[v])) drop.velocities().col(v) = velocity.at(sound.col(v));
+    drop.seam_watch()[v] = std::max(drop.seam_watch()[v], violent_watched_calls);
+    soup.points[v] = to_array(sound.col(v));
+  };
+  for (int round = 0; round < most_rounds; ++round) {
+    auto meeting = self_intersections(soup, most_pairs);
+    if (folds == Folds::between_neighbours)
+      meeting.erase(std::remove_if(meeting.begin(), meeting.end(),
+                                   [&](const auto& pair) {
+                                     return !share_a_vertex(soup.triangles[pair[0]], soup.triangles[pair[1]]);
+                                   }),
+                    meeting.end());
+    if (meeting.empty()) return taken;
+    const std::size_t count = taken.size();
+    for (const auto& pair : meeting)
+      for (const auto face : pair)
+        for (const auto v : soup.triangles[face]) take(v);
+    if (taken.size() > count && round < narrow_rounds) continue;
+    std::vector<std::uint32_t> around;
+    for (std::uint32_t v = 0; v < is_back.size(); ++v)
+      if (is_back[v] != 0) {
+        const Ring ring = drop.connectivity().ring(v);
+        around.insert(around.end(), ring.neighbour, ring.neighbour + ring.degree);
+      }
+    for (const auto v : around) take(v);
+  }
+  for (std::uint32_t v = 0; v < is_back.size(); ++v) take(v);
+  return taken;
+}
+
+/// Counts the watch of every vertex down.
+void count_down(Drop& drop) {
+  std::uint8_t* watch = drop.seam_watch();
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+    if (watch[i] > 0) --watch[i];
+}
+
+}  // namespace
+
+MeshData soup_in(const Drop& drop, const Eigen::AlignedBox3d& region) {
+  MeshData soup;
+  const ConstColumns x = drop.positions();
+  for (Eigen::Index i = 0; i < x.cols(); ++i) soup.points.push_back(to_array(x.col(i)));
+  for (const FaceBox& face : faces_in(view_of(drop), region))
+    soup.triangles.push_back(drop.connectivity().triangles()[face.face]);
+  return soup;
+}
+
+void watch_violent_faces(Drop& drop, const Eigen::Matrix3Xd& before) {
+  const ConstColumns x = std::as_const(drop).positions();
+  std::uint8_t* const watch = drop.seam_watch();
+  for (const auto& [a, b, c] : drop.connectivity().triangles()) {
+    if (a == Connectivity::removed) continue;
+    const Eigen::Vector3d p = before.col(b) - before.col(a), q = before.col(c) - before.col(a), r = q - p;
+    const Eigen::Vector3d s = x.col(b) - x.col(a), t = x.col(c) - x.col(a), u = t - s;
+    const auto changes_little = [](const Eigen::Vector3d& was, const Eigen::Vector3d& is) {
+      return (is - was).squaredNorm() < large_change * large_change * was.squaredNorm();
+    };
+    if (changes_little(p, s) && changes_little(q, t) && changes_little(r, u) && p.cross(q).dot(s.cross(t)) > 0)
+      continue;
+    for (const auto v : {a, b, c}) watch[v] = std::max(watch[v], violent_watched_calls);
+  }
+}
+
+bool may_fold(const Drop& drop, const MergeOptions& options) {
+  const std::uint8_t* watch = drop.seam_watch();
+  return drop.num_rows() > 0 &&
+         (options.self_merge || std::any_of(watch, watch + drop.num_rows(), [](std::uint8_t w) { return w != 0; }));
+}
+
+std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& before, const MergeOptions& options,
+                                            Remesher& remesher, MergeReport& report) {
+  const Eigen::AlignedBox3d region =
+      options.self_merge ? bounding_box(drop) : SheetGuard::region_of(drop, options.remesh.band.edge_max);
+  if (region.isEmpty()) return std::nullopt;
+  const auto unite = [&] { return unite_with_itself(view_of(std::as_const(drop)), region, options.keep_air); };
+  BooleanResult result = unite();
+  const Ledger ledger = measure_ledger(drop);
+  std::vector<std::uint32_t> taken;
+  if (!result.ok()) {  // perhaps for the sake of a few faces that fold over their neighbours
+    taken = take_back(drop, before, region, Folds::between_neighbours);
+    result = unite();
+  }
+  if (!result.ok()) {
+    const std::vector<std::uint32_t> more = take_back(drop, before, region, Folds::all);
+    taken.insert(taken.end(), more.begin(), more.end());
+  }
+  report.taken_back += taken.size();
+  if (!result.ok() || result.outcome == BooleanOutcome::disjoint) {
+    if (taken.empty()) count_down(drop);
+    relax(drop, taken, region, options.remesh.band.edge_max);
+    const bool is_measurable = std::abs(ledger.volume / drop.target_volume() - 1) < largest_volume_error;
+    if (!taken.empty() && is_measurable) restore_ledger(drop, ledger, false);
+    return std::nullopt;
+  }
+  ++report.folds;
+  report.overlap += ledger.volume - result.volume;
+  return rebuild(drop, drop, result, ledger, drop.target_volume(), options, remesher, report);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meniscus/core/types.h"
+#include "meniscus/state/drop.h"
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <unordered_map>
+#include <vector>
+
+namespace meniscus {
+
+/// Keeps edge operations from making a surface meet itself where two of its sheets are close together:
+/// near the seam of a merge. Exact; knows the faces that meet its region when it is made, and those that
+/// operations make from them.
+class SheetGuard {
+ public:
+  /// A face that an operation is about to make.
+  struct NewFace {
+    std::array<std::uint32_t, 3> vertices;  ///< vertices in common with other faces are not where they meet
+    std::array<Eigen::Vector3d, 3> points;
+  };
+
+  /// The watched region of a drop: the vertices whose seam_watch is not 0, as far again as they extend and
+  /// three edges of `edge_max` more. Empty if there are none.
+  static Eigen::AlignedBox3d region_of(const Drop& drop, double edge_max);
+
+  /// Keeps a reference to the drop. `cell`: the length of the grid's cells, near that of an edge.
+  SheetGuard(const Drop& drop, const Eigen::AlignedBox3d& region, double cell);
+
+  /// Whether the new faces meet each other, or a face that stays: one that holds none of `replaced` vertices, or is
+  /// not among the `removed` faces.
+  bool would_meet(const std::vector<NewFace>& faces, const std::vector<std::uint32_t>& replaced,
+                  const std::vector<std::uint32_t>& removed) const;
+
+  /// Whether a point is in the region.
+  bool covers(const Eigen::Vector3d& x) const { return region_.contains(x); }
+
+  /// A face was made or moved. No matter if it is known already.
+  void add(std::uint32_t face);
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+  struct Hash {
+    std::size_t operator()(const Cell& c) const {
+      return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
+    }
+  };
+  template <class Visit>
+  void for_each_cell(const Eigen::AlignedBox3d& box, Visit visit) const;
+  Eigen::AlignedBox3d box_of(std::uint32_t face) const;
+  bool meet(const NewFace& s, const NewFace& t) const;
+  NewFace face_at(std::uint32_t face) const;
+
+  const Drop& drop_;
+  Eigen::AlignedBox3d region_;
+  double cell_;
+  std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> faces_;
+  mutable std::vector<std::array<double, 3>> points_;  // of one test
+};
+
+}  // namespace meniscus

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "boolean_seam.h"
 #include "face_grid.h"
 #include "meniscus/geometry/rigid_motion.h"
-#include "meniscus/geometry/self_intersection.h"
 #include "meniscus/topology/self_union.h"
 #include "merge_parts.h"
 #include "sheet_guard.h"
@@ -73,15 +73,67 @@ void relax(Drop& drop, const std::vector<std::uint32_t>& vertices, const Eigen::
     if (!is_colliding(drop.contact()[v])) relax(drop, v, guard);
 }
 
+/// The faces of a drop that meet a region, and which of them meet each other elsewhere than in what they share.
+class FoldFinder {
+ public:
+  FoldFinder(const Drop& drop, const Eigen::AlignedBox3d& region)
+      : drop_(drop), faces_(faces_in(view_of(drop), region)), place_(drop.connectivity().triangles().size(), none) {
+    for (std::uint32_t k = 0; k < faces_.size(); ++k) place_[faces_[k].face] = k;
+    is_moved_.assign(faces_.size(), 1);
+  }
+  /// The vertex has another place now.
+  void move(std::uint32_t v) {
+    const Ring ring = drop_.connectivity().ring(v);
+    for (int k = 0; k < ring.degree; ++k) {
+      const std::uint32_t place = place_[ring.corner[k] / 3];
+      if (place == none) continue;
+      is_moved_[place] = 1;
+      faces_[place].box.setEmpty();
+      for (const auto w : drop_.connectivity().triangles()[faces_[place].face])
+        faces_[place].box.extend(Eigen::Vector3d(drop_.positions().col(w)));
+    }
+  }
+  /// Pairs of faces that meet, sorted. At the first call all are tested, then those that moved since.
+  const std::vector<std::array<std::uint32_t, 2>>& find(Folds folds) {
+    const MeshView mesh = view_of(drop_);
+    const auto has_moved = [&](std::uint32_t face) { return is_moved_[place_[face]] != 0; };
+    meeting_.erase(std::remove_if(meeting_.begin(), meeting_.end(),
+                                  [&](const auto& pair) { return has_moved(pair[0]) || has_moved(pair[1]); }),
+                   meeting_.end());
+    const FaceGrid grid(faces_);
+    for (std::uint32_t k = 0; k < faces_.size(); ++k) {
+      if (is_moved_[k] == 0) continue;
+      const std::uint32_t f = faces_[k].face;
+      grid.for_each_meeting(faces_[k].box, [&](const FaceBox& other) {
+        const std::uint32_t g = other.face;
+        if (g == f || (g < f && has_moved(g))) return true;  // it itself, or seen from the other side
+        if (folds == Folds::between_neighbours && !share_a_vertex(mesh.triangles[f], mesh.triangles[g])) return true;
+        if (boolean_parts::faces_meet(mesh, f, g)) meeting_.push_back({std::min(f, g), std::max(f, g)});
+        return true;
+      });
+    }
+    std::fill(is_moved_.begin(), is_moved_.end(), std::uint8_t{0});
+    std::sort(meeting_.begin(), meeting_.end());
+    return meeting_;
+  }
+
+ private:
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  const Drop& drop_;
+  std::vector<FaceBox> faces_;
+  std::vector<std::uint32_t> place_;  // of a face in the list
+  std::vector<std::uint8_t> is_moved_;
+  std::vector<std::array<std::uint32_t, 2>> meeting_;
+};
+
 /// Takes vertices back until no faces of the region meet; lists them. See mend_folds.
 std::vector<std::uint32_t> take_back(Drop& drop, const Eigen::Matrix3Xd& before, const Eigen::AlignedBox3d& region,
                                      Folds folds) {
   constexpr int narrow_rounds = 6, most_rounds = 16;
-  constexpr std::size_t most_pairs = 1000;
   if (before.cols() != static_cast<Eigen::Index>(drop.num_rows())) return {};
   RigidMotion velocity;
   const Eigen::Matrix3Xd sound = carried_along(std::as_const(drop), before, velocity);
-  MeshData soup = soup_in(drop, region);
+  FoldFinder finder(drop, region);
   std::vector<std::uint8_t> is_back(drop.num_rows(), 0);
   std::vector<std::uint32_t> taken;
   const auto take = [&](std::uint32_t v) {
@@ -91,29 +143,20 @@ std::vector<std::uint32_t> take_back(Drop& drop, const Eigen::Matrix3Xd& before,
     drop.positions().col(v) = sound.col(v);
     if (!is_colliding(drop.contact()[v])) drop.velocities().col(v) = velocity.at(sound.col(v));
     drop.seam_watch()[v] = std::max(drop.seam_watch()[v], violent_watched_calls);
-    soup.points[v] = to_array(sound.col(v));
+    finder.move(v);
   };
   for (int round = 0; round < most_rounds; ++round) {
-    auto meeting = self_intersections(soup, most_pairs);
-    if (folds == Folds::between_neighbours)
-      meeting.erase(std::remove_if(meeting.begin(), meeting.end(),
-                                   [&](const auto& pair) {
-                                     return !share_a_vertex(soup.triangles[pair[0]], soup.triangles[pair[1]]);
-                                   }),
-                    meeting.end());
+    const auto& meeting = finder.find(folds);
     if (meeting.empty()) return taken;
     const std::size_t count = taken.size();
     for (const auto& pair : meeting)
       for (const auto face : pair)
-        for (const auto v : soup.triangles[face]) take(v);
+        for (const auto v : drop.connectivity().triangles()[face]) take(v);
     if (taken.size() > count && round < narrow_rounds) continue;
-    std::vector<std::uint32_t> around;
-    for (std::uint32_t v = 0; v < is_back.size(); ++v)
-      if (is_back[v] != 0) {
-        const Ring ring = drop.connectivity().ring(v);
-        around.insert(around.end(), ring.neighbour, ring.neighbour + ring.degree);
-      }
-    for (const auto v : around) take(v);
+    for (std::size_t k = 0, size = taken.size(); k < size; ++k) {
+      const Ring ring = drop.connectivity().ring(taken[k]);
+      for (int n = 0; n < ring.degree; ++n) take(ring.neighbour[n]);
+    }
   }
   for (std::uint32_t v = 0; v < is_back.size(); ++v) take(v);
   return taken;

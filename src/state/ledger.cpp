@@ -141,14 +141,11 @@ void restore_ledger(Drop& drop, const Ledger& ledger, bool with_volume) {
   geometry.compute(std::as_const(drop).positions(), drop.connectivity());
   VolumeMoments moments = volume_moments(drop);
   if (!(moments.volume > 0)) return;
-  const bool is_free = !touches_solid(drop);
-  if (is_free) {
-    const Vector3d shift = ledger.center() - moments.center;
-    drop.positions().colwise() += shift;
-    moments.center += shift;
-  }
+  if (touches_solid(drop)) return;
+  const Vector3d shift = ledger.center() - moments.center;
+  drop.positions().colwise() += shift;
+  moments.center += shift;
   fit_momentum(drop, geometry, moments.center, ledger.momentum);
-  if (!is_free) return;
   const Vector3d spin = ledger.angular_momentum - moments.center.cross(ledger.momentum);
   const Vector3d turn = moments.inertia.ldlt().solve(spin) - fitted_rotation(drop, geometry);
   if (!turn.allFinite()) return;

@@ -85,7 +85,7 @@ TEST(Ledger, ItsOwnLedgerMovesADropByRoundingOnlyWhereItHadNoFlux) {
   EXPECT_LT((drop.velocities() - u).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-TEST(Ledger, ADropOnASolidKeepsItsPlaceAndTakesVolumeAndMomentum) {
+TEST(Ledger, ADropOnASolidKeepsItsPlaceAndVelocityAndTakesVolume) {
   Drop drop(make_cap({0, 0, 0}, {0, 0, 1}, 0.2, pi / 2, 0.05));
   for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
     if (drop.positions()(2, i) < 1e-9) {
@@ -100,11 +100,10 @@ TEST(Ledger, ADropOnASolidKeepsItsPlaceAndTakesVolumeAndMomentum) {
   restore_ledger(drop, wanted);
   const Ledger is = measure_ledger(drop);
   EXPECT_NEAR(is.volume / wanted.volume, 1, 1e-12);
-  EXPECT_LT(relative(is.momentum, wanted.momentum), 1e-12);
+  EXPECT_EQ(drop.velocities().norm(), 0);
   for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
     if (is_colliding(drop.contact()[i])) {
       EXPECT_EQ(Vector3d(drop.positions().col(i)), Vector3d(x.col(i)));
-      EXPECT_EQ(Vector3d(drop.velocities().col(i)), Vector3d::Zero());
     }
 }
 

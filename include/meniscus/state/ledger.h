@@ -29,7 +29,8 @@ Ledger measure_ledger(const Drop& drop);
 /// 2. all of the drop goes to X_cm;
 /// 3. u += c + s n at vertices off solids, with c and s such that the flux is 0 and P fits;
 /// 4. u += (omega - omega_fit) x (x - X_cm), which has no flux and no P.
-/// A drop on a solid skips 2 and 4: the solid holds its place and its spin. Exact to rounding, but for the
+/// For a drop on a solid 1 is all: the solid holds it and takes its momentum (a flat puddle has hardly a motion
+/// without flux that carries any, and would be torn to have it). Exact to rounding, but for the
 /// volume (secants, 1e-12). Where nothing is free to move, or the volume is not positive, it does nothing.
 /// Writes positions and velocities; the target volume stays. Without `with_volume`, 1 is left out: the volume is
 /// put right later.

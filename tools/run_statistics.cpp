@@ -110,8 +110,7 @@ Json RunStatistics::to_json() const {
             {"added", sum_.volume_added},
             {"final", final_volume_},
             {"worst_relative_error", worst_error_},
-            {"merge_overlap", sum_.overlap},
-            {"air_filled", sum_.air}}},
+            {"merge_overlap", sum_.overlap}}},
           {"drops", num_drops_}};
 }
 

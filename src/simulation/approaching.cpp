@@ -2,6 +2,7 @@
 #include "meniscus/simulation/approaching.h"
 
 #include "meniscus/simulation/broad_phase.h"
+#include "step_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,7 @@ Motion motion_of(const Drop& drop) {
     if (drop.connectivity().degree(i) > 0)
       motion.spread = std::max(motion.spread, (v.col(i) - motion.velocity).squaredNorm());
   motion.spread = std::sqrt(motion.spread);
-  motion.radius = std::cbrt(drop.target_volume() * 0.75 / 3.14159265358979323846);
+  motion.radius = ball_radius(drop);
   return motion;
 }
 

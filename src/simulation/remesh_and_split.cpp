@@ -71,7 +71,6 @@ StepReport& StepReport::operator+=(const MergeReport& merge) {
   cuts += merge.cuts;
   deleted += merge.deleted;
   overlap += merge.overlap;
-  air += merge.air;
   return *this;
 }
 

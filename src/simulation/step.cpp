@@ -21,8 +21,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double pi = 3.14159265358979323846;
-
 /// c = 2 sigma/(rho R), cm^3/s^2: the acceleration that a mean curvature of 1/cm gives a drop whose
 /// lowest mode runs at Rayleigh's frequency; R = 3 V/A of the water-air surface.
 double tension_over_mass(const Drop& drop, const SurfaceGeometry& geometry, const Liquid& liquid) {
@@ -244,7 +242,6 @@ StepReport& StepReport::operator+=(const StepReport& other) {
   taken_back += other.taken_back;
   retries += other.retries;
   overlap += other.overlap;
-  air += other.air;
   rejected += other.rejected;
   asleep += other.asleep;
   asleep_triangles += other.asleep_triangles;

@@ -209,6 +209,10 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& 
   if (region.isEmpty()) return std::nullopt;
   const auto unite = [&] { return unite_with_itself(view_of(std::as_const(drop)), region, options.keep_air); };
   BooleanResult result = unite();
+  if (result.ok() && result.outcome == BooleanOutcome::disjoint) {
+    count_down(drop);
+    return std::nullopt;
+  }
   const Ledger ledger = measure_ledger(drop);
   std::vector<std::uint32_t> taken;
   if (!result.ok()) {  // perhaps for the sake of a few faces that fold over their neighbours

@@ -247,7 +247,6 @@ MergeReport& MergeReport::operator+=(const MergeReport& other) {
   cuts += other.cuts;
   deleted += other.deleted;
   overlap += other.overlap;
-  air += other.air;
   return *this;
 }
 

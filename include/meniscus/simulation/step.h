@@ -68,7 +68,6 @@ struct StepReport {
   std::size_t taken_back = 0;                      ///< vertices that went back so that no surface meets itself
   std::size_t retries = 0;                         ///< ladder steps that a union took in vain
   double overlap = 0;                              ///< cm^3 that merging drops both claimed, lost and repaired
-  double air = 0;                                  ///< cm^3 of shut-in air that was filled
   std::size_t rejected = 0;                        ///< substeps of Level::pressure taken back for shorter ones
   int substeps = 0;                                ///< most of any drop
   int solver_iterations = 0;                       ///< most of any drop
@@ -96,7 +95,6 @@ struct StepReport {
     archive("taken_back", self.taken_back);
     archive("retries", self.retries);
     archive("overlap", self.overlap);
-    archive("air", self.air);
     archive("rejected", self.rejected);
     archive("asleep", self.asleep);
     archive("asleep_triangles", self.asleep_triangles);

@@ -26,7 +26,6 @@ struct MergeReport {
   std::size_t cuts = 0;        ///< necks that remeshing the seam cut
   std::size_t deleted = 0;     ///< pieces too small to go on as drops
   double overlap = 0;          ///< volume that both drops claimed: lost in the union, given back by an offset
-  double air = 0;              ///< volume of the air that was filled
 
   MergeReport& operator+=(const MergeReport& other);
 };
@@ -34,8 +33,8 @@ struct MergeReport {
 /// Unites two drops that meet (Section 5.1 of the paper): the Boolean union of their volumes, with the
 /// velocities, contact states and every other vertex map carried over and the seam remeshed. The target
 /// volumes add up, and so do the ledgers (see ledger.h): the overlap is given back by an offset of the
-/// surface, linear momentum is kept to rounding. Where both drops wet the same plane, the seam ends in a
-/// common contact line.
+/// surface, for a drop off solids linear momentum is kept to rounding. Where both drops wet the same plane, the seam
+/// ends in a common contact line.
 ///
 /// The result has a's id. It is one drop, more if remeshing the seam cut a neck, none if nothing was
 /// left to go on. Nothing (std::nullopt) if the drops do not meet, or if the union was refused, which
@@ -60,7 +59,8 @@ bool may_fold(const Drop& drop, const MergeOptions& options);
 /// `before` (3 x rows, cm) says where the vertices were when the drop was last sound, and those that
 /// make the surface meet itself go back there, carried along by the drop's rigid motion and with its
 /// velocity; more around them if that is not enough. Then they are smoothed as far as nothing meets, so that the next
-/// step does not end the same way. A drop on a solid is not carried along. Centre of mass and momenta stay.
+/// step does not end the same way. A drop on a solid is not carried along; of one off solids centre of mass
+/// and momenta stay.
 std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& before, const MergeOptions& options,
                                             Remesher& remesher, MergeReport& report);
 

@@ -98,6 +98,7 @@ Json RunStatistics::to_json() const {
            {{"merges", sum_.merges},
             {"folds_mended", sum_.folds},
             {"vertices_taken_back", sum_.taken_back},
+            {"steps_recovered", sum_.recoveries},
             {"splits", sum_.cuts},
             {"deleted", sum_.deleted},
             {"retries", sum_.retries},

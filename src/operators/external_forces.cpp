@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace meniscus {
 namespace {
 
@@ -59,6 +61,52 @@ Vector3d apply_friction(const Vector3d& velocity, const Vector3d& solid_velocity
   const double speed = slip.norm();
   if (speed <= epsilon) return solid_velocity;
   return velocity - epsilon / speed * slip;
+}
+
+/// Whether p lies within the triangle of three points, as seen along n.
+bool is_within(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& n) {
+  const double u = (b - a).cross(p - a).dot(n), v = (c - b).cross(p - b).dot(n), w = (a - c).cross(p - c).dot(n);
+  return (u <= 0 && v <= 0 && w <= 0) || (u >= 0 && v >= 0 && w >= 0);
+}
+
+/// Vertices of the free surface that came down on the drop's own wetted area: between them and the solid there is
+/// liquid, a film that the mesh is too coarse to show. They stay above it, free, by this share of their edges' length.
+constexpr double film_thickness = 0.02;
+
+bool is_over_wetted_area(const Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n) {
+  const ConstColumns x = drop.positions();
+  const Contact* contact = drop.contact();
+  for (const auto& [a, b, c] : drop.connectivity().triangles()) {
+    if (a == Connectivity::removed || a == v || b == v || c == v) continue;
+    if (!is_colliding(contact[a]) || !is_colliding(contact[b]) || !is_colliding(contact[c])) continue;
+    const Vector3d p_a = x.col(a), p_b = x.col(b), p_c = x.col(c);
+    if ((p_b - p_a).cross(p_c - p_a).dot(n) < 0 && is_within(p, p_a, p_b, p_c, n)) return true;
+  }
+  return false;
+}
+
+/// Puts a vertex that is at or below p, on a solid of normal n, above it; it is free then.
+void lift(Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n) {
+  Columns x = drop.positions();
+  const Ring ring = drop.connectivity().ring(v);
+  double length = 0;
+  for (int k = 0; k < ring.degree; ++k) length += (x.col(ring.neighbour[k]) - p).norm() / ring.degree;
+  x.col(v) = p + film_thickness * length * n;
+  drop.contact()[v] = Contact::free;
+  drop.contact_solid()[v] = -1;
+}
+
+/// `stays`: belonged to a wetted face before. Returns how many were lifted.
+std::size_t lift_films(Drop& drop, const std::vector<std::uint8_t>& stays) {
+  std::size_t lifted = 0;
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
+    if (!is_colliding(drop.contact()[v]) || stays[v] != 0) continue;
+    const Vector3d p = drop.positions().col(v), n = drop.contact_normals().col(v);
+    if (!is_over_wetted_area(drop, v, p, n)) continue;
+    lift(drop, v, p, n);
+    ++lifted;
+  }
+  return lifted;
 }
 
 class Collider {
@@ -187,8 +235,30 @@ ExternalForcesReport apply_external_forces(Drop& drop, const std::vector<Solid>&
     contact[i] = colliding ? Contact::wetted : Contact::free;
     report.colliding += colliding;
   }
+  if (report.colliding > 0) report.colliding -= lift_films(drop, stays);
   mark_contact_line(drop);
   return report;
+}
+
+std::size_t lift_films(Drop& drop, const std::vector<Solid>& solids, double time) {
+  const Contact* contact = drop.contact();
+  const auto n = static_cast<std::uint32_t>(drop.num_rows());
+  if (std::none_of(contact, contact + n, is_colliding)) return 0;
+  const Eigen::AlignedBox3d box = bounding_box(drop);
+  std::size_t lifted = 0;
+  for (const Solid& solid : solids) {
+    if (solid.inflow || !solid.is_near(box, time, 0)) continue;
+    for (std::uint32_t v = 0; v < n; ++v) {
+      const Vector3d x = drop.positions().col(v);
+      if (drop.connectivity().degree(v) == 0 || is_colliding(contact[v])) continue;
+      if (!solid.is_near(Eigen::AlignedBox3d(x), time, 0)) continue;
+      const SolidContact below = solid.query(x, time);
+      if (below.distance > 0 || !is_over_wetted_area(drop, v, below.point, below.normal)) continue;
+      lift(drop, v, below.point, below.normal);
+      ++lifted;
+    }
+  }
+  return lifted;
 }
 
 void find_contact(Drop& drop, const std::vector<Solid>& solids, double time, double tolerance) {

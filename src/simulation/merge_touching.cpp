@@ -35,7 +35,12 @@ bool boxes_meet(const Drop& a, const Drop& b) { return bounding_box(a).intersect
 bool are_parting(const Drop& a, const Drop& b) {
   const Ledger p = measure_ledger(a), q = measure_ledger(b);
   if (!(p.volume > 0) || !(q.volume > 0)) return false;
-  const auto squared_speed = [](const Drop& drop) { return drop.velocities().colwise().squaredNorm().maxCoeff(); };
+  const auto squared_speed = [](const Drop& drop) {
+    double most = 0;
+    for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+      if (drop.connectivity().degree(i) > 0) most = std::max(most, drop.velocities().col(i).squaredNorm());
+    return most;
+  };
   const Eigen::Vector3d apart = p.center() - q.center();
   const double noise = 0.01 * apart.norm() * std::sqrt(std::max(squared_speed(a), squared_speed(b)));
   return apart.dot(p.momentum / p.volume - q.momentum / q.volume) > noise;

@@ -9,6 +9,8 @@
 #include "meniscus/operators/mean_curvature_flow.h"
 #include "meniscus/operators/tangential_damping.h"
 #include "meniscus/operators/volume_correction.h"
+#include "meniscus/state/contact_line.h"
+#include "recover_step.h"
 #include "step_parts.h"
 
 #include <fmt/format.h>
@@ -170,11 +172,10 @@ int num_substeps(Drop& drop, const std::vector<Solid>& solids, double time, doub
   return static_cast<int>(std::ceil(std::min(substeps, static_cast<double>(most_substeps))));
 }
 
-/// One substep: the paper's Figure 1.
-std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
-                          const StepOptions& options, Remesher& remesher, StepReport& report) {
+/// The operators of one substep, in the order of the paper's Figure 1.
+void deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt, const StepOptions& options,
+            StepReport& report) {
   StageClock clock(options.clock, report);
-  const Eigen::Matrix3Xd before = std::as_const(drop).positions();
   const bool jet = is_jet(drop, solids, time, options);
   const ExternalForcesReport forces =
       apply_external_forces(drop, solids, time, dt, external_forces_options(drop, jet, options));
@@ -215,9 +216,18 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
                     drop.id(), 1 + volume.relative_error));
   clock.done(Stage::volume_correction);
 
+  if (forces.colliding > 0 && lift_films(drop, solids, time) > 0) mark_contact_line(drop);
   if (options.volume_correction == VolumeCorrectionMethod::none) report.skip(Stage::volume_correction);
+}
 
-  return remesh_and_split(std::move(drop), before, options, remesher, clock, report);
+/// One substep: operators, remesh, split.
+std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
+                          const StepOptions& options, Remesher& remesher, StepReport& report) {
+  const KeptState kept = deform_or_recover(drop, time, dt, options, report,
+                                           [&](Drop& moving, double to, double step, const StepOptions& at,
+                                               StepReport& sum) { deform(moving, solids, to, step, at, sum); });
+  StageClock clock(options.clock, report);
+  return remesh_and_split(std::move(drop), kept.positions(), options, remesher, clock, report);
 }
 
 }  // namespace
@@ -243,6 +253,7 @@ StepReport& StepReport::operator+=(const StepReport& other) {
   retries += other.retries;
   overlap += other.overlap;
   rejected += other.rejected;
+  recoveries += other.recoveries;
   asleep += other.asleep;
   asleep_triangles += other.asleep_triangles;
   volume_added += other.volume_added;

@@ -14,12 +14,24 @@ namespace {
 
 std::array<double, 3> to_array(const Eigen::Vector3d& x) { return {x.x(), x.y(), x.z()}; }
 
+Eigen::Vector3d mean_velocity(const Drop& drop) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double count = 0;
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
+    if (drop.connectivity().degree(i) == 0) continue;
+    sum += drop.velocities().col(i);
+    ++count;
+  }
+  return count > 0 ? Eigen::Vector3d(sum / count) : sum;
+}
+
 /// A drop's points as they would be had it only moved as a rigid body since `before`; it did not move at all if a
-/// solid holds it. Sets `velocity` to that of the same motion.
+/// solid holds it. Sets `velocity` to that of the same motion; on a solid to half of the mean, so that a drop that is
+/// taken back again and again comes to rest.
 Eigen::Matrix3Xd carried_along(const Drop& drop, const Eigen::Matrix3Xd& before, RigidMotion& velocity) {
   velocity = RigidMotion();
   if (std::any_of(drop.contact(), drop.contact() + drop.num_rows(), is_colliding)) {
-    velocity.translation = drop.velocities().rowwise().mean();
+    velocity.translation = 0.5 * mean_velocity(drop);
     return before;
   }
   SurfaceGeometry geometry;
@@ -31,9 +43,6 @@ Eigen::Matrix3Xd carried_along(const Drop& drop, const Eigen::Matrix3Xd& before,
   for (Eigen::Index i = 0; i < before.cols(); ++i) carried.col(i) += motion.at(drop.positions().col(i) - moved.col(i));
   return carried;
 }
-
-/// An edge that turns or stretches by more than this share of its length in a substep.
-constexpr double large_change = 0.5;
 
 /// What a folded surface encloses tells of the drop's place and momentum if it is off by no more than this.
 constexpr double largest_volume_error = 0.2;
@@ -162,13 +171,6 @@ std::vector<std::uint32_t> take_back(Drop& drop, const Eigen::Matrix3Xd& before,
   return taken;
 }
 
-/// Counts the watch of every vertex down.
-void count_down(Drop& drop) {
-  std::uint8_t* watch = drop.seam_watch();
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-    if (watch[i] > 0) --watch[i];
-}
-
 }  // namespace
 
 MeshData soup_in(const Drop& drop, const Eigen::AlignedBox3d& region) {
@@ -180,28 +182,6 @@ MeshData soup_in(const Drop& drop, const Eigen::AlignedBox3d& region) {
   return soup;
 }
 
-void watch_violent_faces(Drop& drop, const Eigen::Matrix3Xd& before) {
-  const ConstColumns x = std::as_const(drop).positions();
-  std::uint8_t* const watch = drop.seam_watch();
-  for (const auto& [a, b, c] : drop.connectivity().triangles()) {
-    if (a == Connectivity::removed) continue;
-    const Eigen::Vector3d p = before.col(b) - before.col(a), q = before.col(c) - before.col(a), r = q - p;
-    const Eigen::Vector3d s = x.col(b) - x.col(a), t = x.col(c) - x.col(a), u = t - s;
-    const auto changes_little = [](const Eigen::Vector3d& was, const Eigen::Vector3d& is) {
-      return (is - was).squaredNorm() < large_change * large_change * was.squaredNorm();
-    };
-    if (changes_little(p, s) && changes_little(q, t) && changes_little(r, u) && p.cross(q).dot(s.cross(t)) > 0)
-      continue;
-    for (const auto v : {a, b, c}) watch[v] = std::max(watch[v], violent_watched_calls);
-  }
-}
-
-bool may_fold(const Drop& drop, const MergeOptions& options) {
-  const std::uint8_t* watch = drop.seam_watch();
-  return drop.num_rows() > 0 &&
-         (options.self_merge || std::any_of(watch, watch + drop.num_rows(), [](std::uint8_t w) { return w != 0; }));
-}
-
 std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& before, const MergeOptions& options,
                                             Remesher& remesher, MergeReport& report) {
   const Eigen::AlignedBox3d region =
@@ -210,7 +190,7 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& 
   const auto unite = [&] { return unite_with_itself(view_of(std::as_const(drop)), region, options.keep_air); };
   BooleanResult result = unite();
   if (result.ok() && result.outcome == BooleanOutcome::disjoint) {
-    count_down(drop);
+    count_down_watch(drop, options.remesh.band.edge_max);
     return std::nullopt;
   }
   const Ledger ledger = measure_ledger(drop);
@@ -225,7 +205,7 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& 
   }
   report.taken_back += taken.size();
   if (!result.ok() || result.outcome == BooleanOutcome::disjoint) {
-    if (taken.empty()) count_down(drop);
+    if (taken.empty()) count_down_watch(drop, options.remesh.band.edge_max);
     relax(drop, taken, region, options.remesh.band.edge_max);
     const bool is_measurable = std::abs(ledger.volume / drop.target_volume() - 1) < largest_volume_error;
     if (!taken.empty() && is_measurable) restore_ledger(drop, ledger, false);

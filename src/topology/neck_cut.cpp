@@ -44,20 +44,20 @@ bool is_flat(const RemeshState& state, const std::vector<HalfedgeIndex>& cycle) 
   return !(n.norm() > 0.05 * longest2);
 }
 
-/// Where a vertex of a cap goes: toward the mean of its ring, the cap's own vertices left out.
-Eigen::Vector3d step_to_own_side(const RemeshState& state, VertexIndex v, const std::array<VertexIndex, 3>& cap,
+/// What a cut will make on one side of a cycle.
+struct Side {
+  std::array<std::uint32_t, 3> names;    ///< of the cap's vertices
+  std::array<Eigen::Vector3d, 3> steps;  ///< how far they move
+  std::vector<FaceIndex> faces;          ///< about the cap, sorted
+};
+
+/// Where a vertex of a cap goes: toward the mean of its neighbours on its side.
+Eigen::Vector3d step_to_own_side(const RemeshState& state, VertexIndex v, const std::vector<VertexIndex>& neighbours,
                                  double length) {
-  const Ring r = state.ring(v);
+  if (neighbours.empty()) return Eigen::Vector3d::Zero();
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  int count = 0;
-  for (int k = 0; k < r.degree; ++k) {
-    const VertexIndex w(r.neighbour[k]);
-    if (std::find(cap.begin(), cap.end(), w) != cap.end()) continue;
-    mean += state.point(w);
-    ++count;
-  }
-  if (count == 0) return Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction = mean / count - state.point(v);
+  for (const auto w : neighbours) mean += state.point(w);
+  Eigen::Vector3d direction = mean / static_cast<double>(neighbours.size()) - state.point(v);
   if (state.colliding(v)) {  // colliding vertices stay on their solid
     const Eigen::Vector3d n = state.drop.contact_normals().col(v);
     direction -= direction.dot(n) * n;
@@ -67,11 +67,47 @@ Eigen::Vector3d step_to_own_side(const RemeshState& state, VertexIndex v, const 
                   : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
+/// The left side of a cycle.
+Side side_of(const RemeshState& state, const std::array<HalfedgeIndex, 3>& cycle, double length) {
+  const Mesh& mesh = state.mesh;
+  Side side;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto end = mesh.opposite(cycle[i]), in = cycle[(i + 2) % 3];
+    std::vector<VertexIndex> neighbours;
+    for (auto h = in; h != end; h = mesh.opposite(mesh.next(h))) {
+      side.faces.push_back(mesh.face(h));
+      if (h != in) neighbours.push_back(mesh.source(h));
+    }
+    side.names[i] = mesh.source(cycle[i]);
+    side.steps[i] = step_to_own_side(state, mesh.source(cycle[i]), neighbours, length);
+  }
+  std::sort(side.faces.begin(), side.faces.end());
+  side.faces.erase(std::unique(side.faces.begin(), side.faces.end()), side.faces.end());
+  return side;
+}
+
+/// Both sides of a cut: first the left one, which keeps the vertices.
+std::array<Side, 2> sides_of(const RemeshState& state, const std::array<HalfedgeIndex, 3>& cycle) {
+  const Mesh& mesh = state.mesh;
+  double shortest2 = std::numeric_limits<double>::infinity();
+  for (const auto h : cycle)
+    shortest2 = std::min(shortest2, (state.point(mesh.target(h)) - state.point(mesh.source(h))).squaredNorm());
+  const double length = apart * std::sqrt(shortest2);
+  const std::array<HalfedgeIndex, 3> backward{mesh.opposite(cycle[2]), mesh.opposite(cycle[1]),
+                                              mesh.opposite(cycle[0])};
+  Side right = side_of(state, backward, length);  // its corners: 0, 2, 1 of the cycle
+  std::swap(right.steps[1], right.steps[2]);
+  for (std::uint32_t i = 0; i < 3; ++i) right.names[i] = mesh.num_vertices() + i;
+  return {side_of(state, cycle, length), std::move(right)};
+}
+
 /// At most this many faces on one side of a cycle are a spike.
 constexpr std::size_t most_spike_faces = 16;
 
-/// Whether a cycle is no neck between two bodies of liquid but goes around a tunnel of air, or cuts off a spike.
-bool is_tunnel_or_spike(const Mesh& mesh, const std::array<HalfedgeIndex, 3>& cycle) {
+enum class Cycle { neck, tunnel, spike };
+
+/// Whether a cycle goes around a neck between two bodies of liquid or a tunnel of air, or cuts off a spike.
+Cycle kind_of(const Mesh& mesh, const std::array<HalfedgeIndex, 3>& cycle) {
   const auto is_on_cycle = [&](HalfedgeIndex h) {
     return std::any_of(cycle.begin(), cycle.end(), [&](HalfedgeIndex c) { return c == h || mesh.opposite(c) == h; });
   };
@@ -85,45 +121,65 @@ bool is_tunnel_or_spike(const Mesh& mesh, const std::array<HalfedgeIndex, 3>& cy
       is_seen[beyond] = true;
       side.push_back(beyond);
     }
-  if (is_seen[mesh.face(mesh.opposite(cycle[0]))]) return true;
-  return std::min(side.size(), mesh.number_of_faces() - side.size()) <= most_spike_faces;
+  if (is_seen[mesh.face(mesh.opposite(cycle[0]))]) return Cycle::tunnel;
+  const std::size_t smaller = std::min(side.size(), mesh.number_of_faces() - side.size());
+  return smaller <= most_spike_faces ? Cycle::spike : Cycle::neck;
 }
 
-/// Near a seam, faces about the vertices of a cap that would meet another sheet if these moved so: they stay.
-void stay_if_sheets_meet(RemeshState& state, const std::array<VertexIndex, 3>& cap,
-                         const std::array<VertexIndex, 3>& other, Eigen::Vector3d* steps) {
-  if (!state.scratch.guard) return;
+/// Near a seam, what a cut makes would meet itself or another sheet.
+bool cut_would_meet(RemeshState& state, const std::array<HalfedgeIndex, 3>& cycle, const std::array<Side, 2>& sides) {
+  if (!state.scratch.guard) return false;
+  const Mesh& mesh = state.mesh;
+  const std::vector<std::uint32_t> corners{mesh.source(cycle[0]), mesh.source(cycle[1]), mesh.source(cycle[2])};
   auto& faces = state.scratch.new_faces;
   faces.clear();
-  const auto moved = [&](std::uint32_t v) {
-    const auto at = std::find(cap.begin(), cap.end(), VertexIndex(v));
-    const Eigen::Vector3d x = state.point(VertexIndex(v));
-    return at == cap.end() ? x : Eigen::Vector3d(x + steps[at - cap.begin()]);
-  };
-  std::vector<std::uint32_t> around;
-  for (const auto v : cap) {
-    const Ring r = state.ring(v);
-    for (int k = 0; k < r.degree; ++k) around.push_back(r.corner[k] / 3);
+  for (const Side& side : sides) {
+    const auto add = [&](const std::vector<std::uint32_t>& vertices) {
+      SheetGuard::NewFace face;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto at =
+            static_cast<std::size_t>(std::find(corners.begin(), corners.end(), vertices[k]) - corners.begin());
+        face.vertices[k] = at == 3 ? vertices[k] : side.names[at];
+        face.points[k] = state.point(VertexIndex(vertices[k]));
+        if (at < 3) face.points[k] += side.steps[at];
+      }
+      faces.push_back(face);
+    };
+    add(corners);
+    for (const auto f : side.faces) {
+      const auto& [a, b, c] = state.connectivity.triangles()[f];
+      add({a, b, c});
+    }
   }
-  std::sort(around.begin(), around.end());
-  around.erase(std::unique(around.begin(), around.end()), around.end());
-  for (const auto f : around) {
-    const auto& t = state.connectivity.triangles()[f];
-    faces.push_back({t, {moved(t[0]), moved(t[1]), moved(t[2])}});
-  }
-  if (state.would_meet_sheet({cap[0], cap[1], cap[2], other[0], other[1], other[2]}, {}))
-    std::fill(steps, steps + 3, Eigen::Vector3d::Zero());
+  return state.would_meet_sheet(corners, {});
 }
 
-void cut(RemeshState& state, const std::vector<HalfedgeIndex>& cycle) {
+/// Shortens the steps of a cut until nothing meets; a spike, which goes away, may also be cut where it is, if its cap
+/// meets nothing. False if nothing will do.
+bool fit_steps(RemeshState& state, const std::array<HalfedgeIndex, 3>& cycle, Cycle kind, std::array<Side, 2>& sides) {
+  if (!cut_would_meet(state, cycle, sides)) return true;
+  const auto scale = [&](double factor) {
+    for (Side& side : sides)
+      for (auto& step : side.steps) step *= factor;
+  };
+  scale(0.3);
+  if (!cut_would_meet(state, cycle, sides)) return true;
+  if (kind != Cycle::spike) return false;
+  scale(0);
+  auto& faces = state.scratch.new_faces;
+  faces.resize(1);
+  for (std::size_t i = 0; i < 3; ++i) {
+    faces[0].vertices[i] = sides[0].names[i];
+    faces[0].points[i] = state.point(VertexIndex(sides[0].names[i]));
+  }
+  return !state.would_meet_sheet({}, {});
+}
+
+void cut(RemeshState& state, const std::vector<HalfedgeIndex>& cycle, const std::array<Side, 2>& sides) {
   Mesh& mesh = state.mesh;
   if (!state.scratch.attributes.is_bound()) state.scratch.attributes.bind(mesh);
   std::array<VertexIndex, 3> left, right;
-  double shortest2 = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 3; ++i) {
-    left[i] = mesh.source(cycle[i]);
-    shortest2 = std::min(shortest2, (state.point(mesh.target(cycle[i])) - state.point(left[i])).squaredNorm());
-  }
+  for (std::size_t i = 0; i < 3; ++i) left[i] = mesh.source(cycle[i]);
   const auto made = cut_along_cycle(mesh, cycle);
   std::copy(made.copies.begin(), made.copies.end(), right.begin());
   for (std::size_t i = 0; i < 3; ++i) state.scratch.attributes.copy(right[i], left[i]);
@@ -139,17 +195,9 @@ void cut(RemeshState& state, const std::vector<HalfedgeIndex>& cycle) {
   }
   for (const auto v : around) state.update(v);
 
-  const double length = apart * std::sqrt(shortest2);
-  std::array<Eigen::Vector3d, 6> steps;
   for (std::size_t i = 0; i < 3; ++i) {
-    steps[i] = step_to_own_side(state, left[i], left, length);
-    steps[3 + i] = step_to_own_side(state, right[i], right, length);
-  }
-  stay_if_sheets_meet(state, left, right, steps.data());
-  stay_if_sheets_meet(state, right, left, steps.data() + 3);
-  for (std::size_t i = 0; i < 3; ++i) {
-    mesh.point(left[i]) = to_point(state.point(left[i]) + steps[i]);
-    mesh.point(right[i]) = to_point(state.point(right[i]) + steps[3 + i]);
+    mesh.point(left[i]) = to_point(state.point(left[i]) + sides[0].steps[i]);
+    mesh.point(right[i]) = to_point(state.point(right[i]) + sides[1].steps[i]);
   }
   for (const auto* side : {&left, &right})
     for (const auto v : *side) {
@@ -188,8 +236,11 @@ Refusal try_cut(RemeshState& state, HalfedgeIndex h) {
   const bool is_of_seam = std::any_of(chosen.begin(), chosen.end(), [&](HalfedgeIndex c) {
     return state.drop.seam_watch()[mesh.target(c)] > violent_watched_calls;
   });
-  if (is_of_seam && !is_tunnel_or_spike(state.mesh, chosen)) return Refusal::link_condition;  // it is to grow
-  cut(state, cycle);
+  const Cycle kind = state.scratch.guard ? kind_of(state.mesh, chosen) : Cycle::neck;
+  if (is_of_seam && kind == Cycle::neck) return Refusal::link_condition;  // it is to grow
+  std::array<Side, 2> sides = sides_of(state, chosen);
+  if (!fit_steps(state, chosen, kind, sides)) return Refusal::near_intersection;
+  cut(state, cycle, sides);
   return Refusal::none;
 }
 

@@ -2,6 +2,7 @@
 #include "meniscus/topology/split.h"
 
 #include "attribute_maps.h"
+#include "meniscus/geometry/self_intersection.h"
 
 #include <Eigen/Geometry>
 
@@ -94,6 +95,27 @@ double volume_of(const Mesh& mesh, const Component& component) {
   return six / 6;
 }
 
+/// A piece of so few faces that meets itself cannot be mended: it has no vertices to spare.
+bool is_knot(const Mesh& mesh, const Component& component) {
+  constexpr std::size_t most_faces = 16;
+  if (component.faces.size() > most_faces) return false;
+  MeshData soup;
+  for (const auto f : component.faces) {
+    std::array<std::uint32_t, 3> triangle;
+    const auto vertices = corners(mesh, f);
+    for (int k = 0; k < 3; ++k) {
+      const auto at = std::lower_bound(component.vertices.begin(), component.vertices.end(), vertices[k]);
+      triangle[k] = static_cast<std::uint32_t>(at - component.vertices.begin());
+    }
+    soup.triangles.push_back(triangle);
+  }
+  for (const auto v : component.vertices) {
+    const Point& p = mesh.point(v);
+    soup.points.push_back({p.x(), p.y(), p.z()});
+  }
+  return !self_intersections(soup, 1).empty();
+}
+
 /// Adds `lost` to the target volumes: evenly, but at most 5 % of a piece's own, the rest by volume.
 void share(double lost, std::vector<Drop>& pieces) {
   constexpr double most = 0.05;
@@ -137,7 +159,7 @@ std::vector<Drop> split_components(Drop drop, SplitReport& report, double least_
     const double volume = volume_of(mesh, component);
     if (!(volume > 0)) {
       ++report.deleted_empty;
-    } else if (component.faces.size() == 4 || volume < least_volume) {
+    } else if (component.faces.size() == 4 || volume < least_volume || is_knot(mesh, component)) {
       ++report.deleted;
       report.volume_deleted += volume;
     } else {

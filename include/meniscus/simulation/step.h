@@ -69,6 +69,7 @@ struct StepReport {
   std::size_t retries = 0;                         ///< ladder steps that a union took in vain
   double overlap = 0;                              ///< cm^3 that merging drops both claimed, lost and repaired
   std::size_t rejected = 0;                        ///< substeps of Level::pressure taken back for shorter ones
+  std::size_t recoveries = 0;                      ///< substeps that blew up and were taken back for shorter ones
   int substeps = 0;                                ///< most of any drop
   int solver_iterations = 0;                       ///< most of any drop
   std::size_t asleep = 0;                          ///< drops that were not stepped, being at rest
@@ -96,6 +97,7 @@ struct StepReport {
     archive("retries", self.retries);
     archive("overlap", self.overlap);
     archive("rejected", self.rejected);
+    archive("recoveries", self.recoveries);
     archive("asleep", self.asleep);
     archive("asleep_triangles", self.asleep_triangles);
     archive("skipped", self.skipped);
@@ -115,8 +117,8 @@ RemeshOptions remesh_options(const StepOptions& step);
 /// was too small to go on.
 /// It is cut into equal substeps where one would be too long: see docs/MODELS.md.
 /// `remesher` keeps working arrays from call to call: one a thread.
-/// Throws NumericsError if a solve does not converge or a number is no longer finite, SoundnessError if
-/// options.verify finds a drop unsound.
+/// A substep after which the drop is not fit to go on is taken back and done in halves: see StepReport::recoveries.
+/// Throws NumericsError if 1/64 of a substep fails still, SoundnessError if options.verify finds a drop unsound.
 std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                             const StepOptions& options, Remesher& remesher, StepReport& report);
 

@@ -43,7 +43,9 @@ std::optional<std::vector<Drop>> merge_drops(const Drop& a, const Drop& b, const
                                              Remesher& remesher, MergeReport& report);
 
 /// Watches (Drop::seam_watch) the vertices of faces that changed much since `before` (3 x rows, cm): that turned over,
-/// or an edge of which turned or stretched by half its length, as where a drop crumples or hits a solid.
+/// or an edge of which turned or stretched by half its length, as where a drop crumples or hits a solid; and those of
+/// faces on a solid that do not face it, or that face away from the normal at a vertex (as of the last
+/// drop.workspace().geometry).
 void watch_violent_faces(Drop& drop, const Eigen::Matrix3Xd& before);
 
 /// Whether mend_folds has anything to look at: watched vertices, or a drop at all with options.self_merge.

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "boolean_parts.h"
+#include "face_grid.h"
+#include "merge_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+using Eigen::Vector3d;
+
+/// An edge that turns or stretches by more than this share of its length in a substep.
+constexpr double large_change = 0.5;
+
+bool changes_much(const Vector3d& before, const Vector3d& now) {
+  return !((now - before).squaredNorm() < large_change * large_change * before.squaredNorm());
+}
+
+/// Faces look at each other, or away from each other, if the cosine between their normals is below this.
+constexpr double opposite = -0.3;
+
+Vector3d area_vector(const MeshView& mesh, const Triangle& t) {
+  const Vector3d a = mesh.points.col(t[0]);
+  return (Vector3d(mesh.points.col(t[1])) - a).cross(Vector3d(mesh.points.col(t[2])) - a);
+}
+
+bool share_a_vertex(const Triangle& s, const Triangle& t) {
+  return std::any_of(s.begin(), s.end(), [&](std::uint32_t v) { return v == t[0] || v == t[1] || v == t[2]; });
+}
+
+/// The watch does not end where another sheet of the surface is within `reach`: vertices about to be forgotten are
+/// watched on, and those of the other sheet with them. Faces on solids are no sheets.
+void watch_close_sheets(Drop& drop, double reach) {
+  const MeshView mesh = view_of(std::as_const(drop));
+  std::uint8_t* watch = drop.seam_watch();
+  const Contact* contact = drop.contact();
+  const auto has = [](const Triangle& t, auto of_vertex) {
+    return of_vertex(t[0]) || of_vertex(t[1]) || of_vertex(t[2]);
+  };
+  const auto is_ending = [&](std::uint32_t v) { return watch[v] == 1; };
+  const auto is_free = [&](std::uint32_t v) { return !is_colliding(contact[v]); };
+  std::vector<std::uint32_t> ending;
+  Eigen::AlignedBox3d region;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    if (t[0] == Connectivity::removed || !has(t, is_ending) || !has(t, is_free)) continue;
+    ending.push_back(f);
+    for (const auto v : t) region.extend(Vector3d(mesh.points.col(v)));
+  }
+  if (ending.empty()) return;
+  const Vector3d margin = Vector3d::Constant(reach);
+  const std::vector<FaceBox> faces = faces_in(mesh, {region.min() - margin, region.max() + margin});
+  const FaceGrid grid(faces);
+  std::vector<std::uint32_t> kept;
+  for (const auto f : ending) {
+    const Triangle& s = mesh.triangles[f];
+    Eigen::AlignedBox3d box;
+    for (const auto v : s) box.extend(Vector3d(mesh.points.col(v)));
+    const Vector3d m = area_vector(mesh, s);
+    grid.for_each_meeting({box.min() - margin, box.max() + margin}, [&](const FaceBox& other) {
+      const Triangle& t = mesh.triangles[other.face];
+      const Vector3d n = area_vector(mesh, t);
+      if (share_a_vertex(s, t) || !has(t, is_free) || !(m.dot(n) < opposite * m.norm() * n.norm())) return true;
+      kept.insert(kept.end(), s.begin(), s.end());
+      kept.insert(kept.end(), t.begin(), t.end());
+      return true;
+    });
+  }
+  for (const auto v : kept) watch[v] = std::max(watch[v], violent_watched_calls);
+}
+
+}  // namespace
+
+void watch_violent_faces(Drop& drop, const Eigen::Matrix3Xd& before) {
+  const ConstColumns x = std::as_const(drop).positions(), n = std::as_const(drop).contact_normals();
+  const SurfaceGeometry& geometry = drop.workspace().geometry;
+  std::uint8_t* const watch = drop.seam_watch();
+  const Contact* const contact = drop.contact();
+  const bool has_normals = geometry.faces().size() == drop.connectivity().triangles().size();
+  for (const auto& [a, b, c] : drop.connectivity().triangles()) {
+    if (a == Connectivity::removed) continue;
+    const Vector3d p = before.col(b) - before.col(a), q = before.col(c) - before.col(a);
+    const Vector3d s = x.col(b) - x.col(a), t = x.col(c) - x.col(a), normal = s.cross(t);
+    const bool is_violent =
+        changes_much(p, s) || changes_much(q, t) || changes_much(q - p, t - s) || !(p.cross(q).dot(normal) > 0);
+    const auto is_turned_at = [&](std::uint32_t v) {
+      return !is_colliding(contact[v]) && normal.dot(geometry.normal(v)) < 0;
+    };
+    const bool is_on_solid = is_colliding(contact[a]) && is_colliding(contact[b]) && is_colliding(contact[c]);
+    const bool is_turned = is_on_solid ? !(normal.dot(n.col(a) + n.col(b) + n.col(c)) < 0)
+                                       : has_normals && (is_turned_at(a) || is_turned_at(b) || is_turned_at(c));
+    if (!is_violent && !is_turned) continue;
+    for (const auto v : {a, b, c}) watch[v] = std::max(watch[v], violent_watched_calls);
+  }
+}
+
+bool may_fold(const Drop& drop, const MergeOptions& options) {
+  const std::uint8_t* watch = drop.seam_watch();
+  return drop.num_rows() > 0 &&
+         (options.self_merge || std::any_of(watch, watch + drop.num_rows(), [](std::uint8_t w) { return w != 0; }));
+}
+
+void count_down_watch(Drop& drop, double reach) {
+  watch_close_sheets(drop, reach);
+  std::uint8_t* watch = drop.seam_watch();
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
+    if (watch[v] > 0) --watch[v];
+}
+
+}  // namespace meniscus

@@ -14,9 +14,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double most_turned = 0.05;  // share of the surface
-constexpr double most_growth = 2;     // of the surface
-constexpr double most_volume_change = 0.5;
+constexpr double most_turned = 0.05;        // share of the surface
+constexpr double most_growth = 2;           // of the surface
+constexpr double most_volume_change = 0.5;  // of the target, away from it
 constexpr int most_halvings = 6;
 
 StepOptions at_half_step(StepOptions options) {
@@ -102,8 +102,9 @@ std::string blow_up(const Drop& drop, const Eigen::Matrix3Xd& before) {
   if (turned > most_turned * area_now)
     return fmt::format("{:.0f} % of the surface turned over", 100 * turned / area_now);
   if (area_now > most_growth * area_then) return fmt::format("the surface grew {:.2g} times", area_now / area_then);
-  const double change = (volume_now - volume_then) / drop.target_volume();
-  if (std::abs(change) > most_volume_change) return fmt::format("the volume changed by {:.0f} %", 100 * change);
+  const double target = drop.target_volume();
+  const double off = (std::abs(volume_now - target) - std::abs(volume_then - target)) / target;
+  if (off > most_volume_change) return fmt::format("the volume went off by {:.0f} %", 100 * off);
   return {};
 }
 

@@ -31,7 +31,7 @@ class KeptState {
 /// - more than a twentieth of the surface turned over: faces whose normal turned by more than 90 degrees since
 ///   `before`,
 /// - the surface is more than twice what it was,
-/// - the volume changed by more than half of its target since `before`.
+/// - the volume went off its target by more than half of that since `before`.
 /// The limits are far above what any sound substep does (docs/MODELS.md). One pass over faces.
 std::string blow_up(const Drop& drop, const Eigen::Matrix3Xd& before);
 

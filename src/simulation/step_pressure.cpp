@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/core/error.h"
 #include "meniscus/operators/pressure.h"
+#include "recover_step.h"
 #include "step_parts.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,13 +39,13 @@ struct Traveller {
   int substeps;
 };
 
-/// One substep of at most traveller.left. Writes how long it was and what to try next.
-void take_substep(Traveller& traveller, const std::vector<Solid>& solids, double time, double shortest,
-                  const StepOptions& options, StageClock& clock, StepReport& report) {
+/// One substep of at most `longest` (s): how long it was.
+double substep(Drop& drop, const std::vector<Solid>& solids, double time, double longest, double shortest,
+               const StepOptions& options, StageClock& clock, StepReport& report) {
   const PressureOptions pressure = pressure_options(options);
-  PressureStep step(traveller.drop, solids, time - traveller.left, pressure);
+  PressureStep step(drop, solids, time, pressure);
   clock.done(Stage::geometry);
-  double dt = std::min(traveller.next, traveller.left);
+  double dt = longest;
   while (dt > shortest && (dt > step.longest_step() || step.top_speed() * dt > first_guess * pressure.edge_min))
     dt *= 0.5;
   while (!step.solve(dt) && dt > shortest) {
@@ -49,11 +53,43 @@ void take_substep(Traveller& traveller, const std::vector<Solid>& solids, double
     ++report.rejected;
   }
   clock.done(Stage::curvature_flow);
-  traveller.drop.set_target_volume(traveller.drop.target_volume() + traveller.drop.inflow() * dt);
+  drop.set_target_volume(drop.target_volume() + drop.inflow() * dt);
   const PressureReport done = step.move();
   report.solver_iterations = std::max(report.solver_iterations, done.iterations);
   report.worst_volume_error = std::max(report.worst_volume_error, std::abs(done.relative_volume_error));
   clock.done(Stage::volume_correction);
+  return dt;
+}
+
+/// The same; a substep after which the drop is not fit to go on is taken back and tried at half its length.
+/// Throws NumericsError when one of `shortest` fails too.
+double substep_or_recover(Drop& drop, const std::vector<Solid>& solids, double time, double longest, double shortest,
+                          const StepOptions& options, const KeptState& kept, StageClock& clock, StepReport& report) {
+  for (;;) {
+    std::string wrong;
+    double dt = longest;
+    try {
+      dt = substep(drop, solids, time, longest, shortest, options, clock, report);
+      wrong = blow_up(drop, kept.positions());
+    } catch (const NumericsError& error) {
+      wrong = error.what();
+    }
+    if (wrong.empty()) return dt;
+    kept.restore(drop);
+    if (dt <= shortest)
+      throw NumericsError(fmt::format("drop {} at {:.6g} s: {}, even in substeps of {:.2g} s; use a smaller time step",
+                                      drop.id(), time, wrong, dt));
+    ++report.recoveries;
+    longest = 0.5 * dt;
+  }
+}
+
+/// One substep of at most traveller.left. Writes what to try next.
+void take_substep(Traveller& traveller, const std::vector<Solid>& solids, double time, double shortest,
+                  const StepOptions& options, const KeptState& kept, StageClock& clock, StepReport& report) {
+  const double dt =
+      substep_or_recover(traveller.drop, solids, time - traveller.left, std::min(traveller.next, traveller.left),
+                         shortest, options, kept, clock, report);
   traveller.left -= dt;
   if (traveller.left < 0.5 * shortest) traveller.left = 0;
   traveller.next = 2 * dt;
@@ -76,11 +112,13 @@ std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, 
       arrived.push_back(std::move(traveller.drop));
       continue;
     }
-    const Eigen::Matrix3Xd before = std::as_const(traveller.drop).positions();
-    take_substep(traveller, solids, time, least_share * dt, options, clock, report);
+    KeptState kept;
+    kept.keep(traveller.drop);
+    take_substep(traveller, solids, time, least_share * dt, options, kept, clock, report);
     report.substeps = std::max(report.substeps, traveller.substeps);
     const double inflow = traveller.drop.inflow();
-    std::vector<Drop> pieces = remesh_and_split(std::move(traveller.drop), before, options, remesher, clock, report);
+    std::vector<Drop> pieces =
+        remesh_and_split(std::move(traveller.drop), kept.positions(), options, remesher, clock, report);
     if (pieces.size() > 1) keep_inflow(pieces, solids, inflow);
     for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
       on_the_way.push_back({std::move(*piece), traveller.left, traveller.next, traveller.substeps});

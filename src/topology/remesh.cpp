@@ -131,6 +131,9 @@ void scan(RemeshState& state) {
     const bool is_wet =
         state.has_contact && is_colliding(contact[t[0]]) && is_colliding(contact[t[1]]) && is_colliding(contact[t[2]]);
     state.has_sharp_angle |= sides.is_sharp();
+    const int on_solid =
+        state.has_contact ? is_colliding(contact[t[0]]) + is_colliding(contact[t[1]]) + is_colliding(contact[t[2]]) : 0;
+    state.has_films |= on_solid == 2 && !state.has_films && is_film(state, FaceIndex(f));
     state.has_turned_faces |= is_wet && state.facing_solid(state.mesh.halfedge(FaceIndex(f))) < hardly_facing;
     if (sides.least < low2 || sides.greatest > high2 || sides.is_obtuse() || sides.is_poor() || is_wet)
       inspect_face(state, FaceIndex(f), sides, is_wet);
@@ -192,8 +195,8 @@ RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOpt
   scratch.guard.reset();
   RemeshState state(drop, options, scratch);
   scan(state);
-  const bool rests =
-      scratch.splits.empty() && scratch.collapses.empty() && scratch.flips.empty() && !state.has_turned_faces;
+  const bool rests = scratch.splits.empty() && scratch.collapses.empty() && scratch.flips.empty() &&
+                     !state.has_turned_faces && !state.has_films;
   if (rests && (options.smoothing == 0 || !state.has_sharp_angle)) return state.report;
   const Eigen::AlignedBox3d watched = SheetGuard::region_of(drop, options.band.edge_max);
   if (!watched.isEmpty()) scratch.guard.emplace(drop, watched, options.band.edge_max);

@@ -70,6 +70,7 @@ struct RemeshState {
   RemeshReport report;
   bool has_contact = false;       ///< some vertex is colliding
   bool has_sharp_angle = false;   ///< some corner is under 30 degrees: smoothing has something to do
+  bool has_films = false;         ///< somewhere next to the contact line the liquid is too thin to show
   bool has_turned_faces = false;  ///< some face of three colliding vertices does not face its solid, or hardly
 
   Eigen::Vector3d point(VertexIndex v) const { return to_eigen(mesh.point(v)); }
@@ -165,6 +166,11 @@ Refusal try_cut(RemeshState& state, HalfedgeIndex h);
 /// Mends what moving vertices along a solid did to faces of three colliding vertices: folds in the
 /// wetted area, and air faces that lie flat on it (a film of no thickness).
 void mend_contact(RemeshState& state);
+
+/// Next to the contact line the air face f lies so low over the solid that the liquid in between is none.
+bool is_film(const RemeshState& state, FaceIndex f);
+/// Takes such faces off the solid: the contact line passes over them, one edge a call.
+void dewet(RemeshState& state);
 
 /// Splits the edge of h at m, where the contact state is `contact`, unasked. Returns the new vertex.
 VertexIndex split_at(RemeshState& state, HalfedgeIndex h, const Eigen::Vector3d& m, Contact contact);

@@ -69,8 +69,8 @@ bool is_within(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Ve
   return (u <= 0 && v <= 0 && w <= 0) || (u >= 0 && v >= 0 && w >= 0);
 }
 
-/// Vertices of the free surface that came down on the drop's own wetted area: between them and the solid there is
-/// liquid, a film that the mesh is too coarse to show. They stay above it, free, by this share of their edges' length.
+/// A vertex of the free surface that sank through the drop's own wetted area goes above it by this share of its edges'
+/// length: in between there is liquid, too thin for the mesh to show.
 constexpr double film_thickness = 0.02;
 
 bool is_over_wetted_area(const Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n) {
@@ -94,19 +94,6 @@ void lift(Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n) {
   x.col(v) = p + film_thickness * length * n;
   drop.contact()[v] = Contact::free;
   drop.contact_solid()[v] = -1;
-}
-
-/// `stays`: belonged to a wetted face before. Returns how many were lifted.
-std::size_t lift_films(Drop& drop, const std::vector<std::uint8_t>& stays) {
-  std::size_t lifted = 0;
-  for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
-    if (!is_colliding(drop.contact()[v]) || stays[v] != 0) continue;
-    const Vector3d p = drop.positions().col(v), n = drop.contact_normals().col(v);
-    if (!is_over_wetted_area(drop, v, p, n)) continue;
-    lift(drop, v, p, n);
-    ++lifted;
-  }
-  return lifted;
 }
 
 class Collider {
@@ -235,7 +222,6 @@ ExternalForcesReport apply_external_forces(Drop& drop, const std::vector<Solid>&
     contact[i] = colliding ? Contact::wetted : Contact::free;
     report.colliding += colliding;
   }
-  if (report.colliding > 0) report.colliding -= lift_films(drop, stays);
   mark_contact_line(drop);
   return report;
 }

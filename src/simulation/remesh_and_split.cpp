@@ -20,8 +20,9 @@ void verify_topology(const Drop& drop, const char* after) {
   if (!defect.empty()) throw SoundnessError(fmt::format("drop {} is unsound after {}: {}", drop.id(), after, defect));
 }
 
-/// The volume of a regular tetrahedron (cm^3): a piece with less has no room for edges in the band.
-double tetrahedron_volume(double edge) { return edge * edge * edge / std::sqrt(72.0); }
+/// The volume of the ball whose diameter is the shortest edge (cm^3): a piece with less has no room for edges in the
+/// band.
+double least_volume(const EdgeBand& band) { return 3.14159265358979323846 / 6 * std::pow(band.edge_min, 3); }
 
 /// A piece smaller than edges are long has no shape to change: of the violent motion of the neck that it was torn
 /// from it keeps the translation. Its few vertices would turn it over otherwise.
@@ -99,7 +100,7 @@ std::vector<Drop> remesh_and_split(Drop drop, const Eigen::Matrix3Xd& before, co
 
   if (remeshed.cuts > 0) {
     SplitReport split;
-    pieces = split_components(std::move(drop), split, tetrahedron_volume(options.band.edge_min));
+    pieces = split_components(std::move(drop), split, least_volume(options.band));
     report.deleted += split.deleted + split.deleted_empty;
     for (Drop& piece : pieces) stiffen_speck(piece, options.band);
     if (options.verify != Verify::nothing)

@@ -50,6 +50,7 @@ StepReport Simulation::step() {
     if (drop.id() == no_id) drop.set_id(next_id_++);
     report.triangles += drop.mesh().number_of_faces();
   }
+  if (report.deleted > 0) share_volume(target_volume_before + report.volume_added - target_volume());
   if (options_.verify == Verify::everything) verify(report, target_volume_before);
   return report;
 }
@@ -116,6 +117,12 @@ void Simulation::merge(std::vector<Drop>& drops, BroadPhase& broad_phase, StepRe
   if (options_.clock) report.stage_seconds[static_cast<std::size_t>(Stage::merge)] += options_.clock() - start;
 }
 
+void Simulation::share_volume(double lost) {
+  const double volume = target_volume();
+  if (!(volume > 0)) return;
+  for (Drop& drop : drops_) drop.set_target_volume(drop.target_volume() * (1 + lost / volume));
+}
+
 void Simulation::check_restored() const {
   for (const Drop& drop : drops_)
     for (std::size_t v = 0; v < drop.num_rows(); ++v) {
@@ -134,7 +141,7 @@ void Simulation::verify(const StepReport& report, double target_volume_before) c
       throw SoundnessError(fmt::format("drop {} is unsound after step {}: {}", drop.id(), num_steps_, defect));
   }
   const double lost = target_volume_before + report.volume_added - target_volume();
-  if (report.deleted == 0 && std::abs(lost) > 1e-9 * target_volume_before)
+  if (!drops_.empty() && std::abs(lost) > 1e-9 * target_volume_before)
     throw SoundnessError(fmt::format("step {} lost {} of {} cm^3", num_steps_, lost, target_volume_before));
 }
 

@@ -29,8 +29,7 @@ struct ExternalForcesReport {
 ///
 /// A vertex that was colliding and belongs to a wetted face stays on its solid: nothing can come
 /// between. It is the contact line that moves off, along the solid; the last vertices without a
-/// wetted face are free to leave. A vertex that comes down on the drop's own wetted area stays a little above it,
-/// free: there is liquid in between. On a source (Solid::inflow) they stay where they are, the line on the
+/// wetted face are free to leave. On a source (Solid::inflow) they stay where they are, the line on the
 /// disc's rim, with the velocity of what comes out.
 ///
 /// Reads and writes positions (cm), velocities (cm/s), contact state, normals and solids.
@@ -39,8 +38,8 @@ struct ExternalForcesReport {
 ExternalForcesReport apply_external_forces(Drop& drop, const std::vector<Solid>& solids, double time, double dt,
                                            const ExternalForcesOptions& options);
 
-/// Lifts what sank into a solid above the drop's own wetted area, as apply_external_forces does; the rest is left to
-/// the next step. For operators that move the free surface without looking at solids.
+/// Puts free vertices that sank into a solid through the drop's own wetted area a little above it; what sank in beside
+/// it is left to the next step's collisions. For operators that move the free surface without looking at solids.
 /// Returns how many vertices were lifted.
 std::size_t lift_films(Drop& drop, const std::vector<Solid>& solids, double time);
 

@@ -68,6 +68,8 @@ class Simulation {
   void merge(std::vector<Drop>& drops, BroadPhase& broad_phase, StepReport& report);
   /// Throws FileError if a drop touches a solid that is not there.
   void check_restored() const;
+  /// Gives all drops, in proportion, the volume (cm^3) of those that were too small to go on.
+  void share_volume(double lost);
   void verify(const StepReport& report, double target_volume_before) const;
 
   std::vector<Solid> solids_;

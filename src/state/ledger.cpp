@@ -135,13 +135,15 @@ Ledger measure_ledger(const Drop& drop) {
 void restore_ledger(Drop& drop, const Ledger& ledger, bool with_volume) {
   if (!(ledger.volume > 0)) return;
   SurfaceGeometry geometry;
-  geometry.compute(std::as_const(drop).positions(), drop.connectivity());
-  constexpr double unbounded = std::numeric_limits<double>::infinity();
-  if (with_volume) offset_to_volume(drop, geometry, ledger.volume, -unbounded, unbounded);
+  if (with_volume) {
+    geometry.compute(std::as_const(drop).positions(), drop.connectivity());
+    constexpr double unbounded = std::numeric_limits<double>::infinity();
+    offset_to_volume(drop, geometry, ledger.volume, -unbounded, unbounded);
+  }
+  if (touches_solid(drop)) return;
   geometry.compute(std::as_const(drop).positions(), drop.connectivity());
   VolumeMoments moments = volume_moments(drop);
   if (!(moments.volume > 0)) return;
-  if (touches_solid(drop)) return;
   const Vector3d shift = ledger.center() - moments.center;
   drop.positions().colwise() += shift;
   moments.center += shift;

@@ -4,6 +4,8 @@
 #include <CGAL/boost/graph/Euler_operations.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace meniscus {
 namespace {
@@ -22,8 +24,19 @@ HalfedgeIndex line_edge(const RemeshState& state, FaceIndex f) {
   return Mesh::null_halfedge();
 }
 
-double height_over(const RemeshState& state, VertexIndex v, VertexIndex on_solid) {
-  return (state.point(v) - state.point(on_solid)).dot(state.contact_normal(on_solid));
+/// How high the apex of h lies over the solid, as the tangent planes at the ends of h tell; infinite where they differ:
+/// over an edge of the solid.
+double height_of_apex(const RemeshState& state, HalfedgeIndex h) {
+  constexpr double same_direction = 0.97;
+  const auto a = state.mesh.source(h), b = state.mesh.target(h);
+  const Vector3d m = state.contact_normal(a), n = state.contact_normal(b), x = state.point(state.apex(h));
+  if (!(m.dot(n) > same_direction)) return std::numeric_limits<double>::infinity();
+  return 0.5 * ((x - state.point(a)).dot(m) + (x - state.point(b)).dot(n));
+}
+
+/// Far below the tangent plane is beside a solid that falls off there.
+bool is_film_of(const RemeshState& state, double height) {
+  return std::abs(height) < least_film * state.options.band.edge_min;
 }
 
 /// The faces that come of it: those about v, but for the film, with v at x, and two wet ones in place of the one
@@ -66,8 +79,8 @@ bool try_dewet(RemeshState& state, HalfedgeIndex h) {
   Mesh& mesh = state.mesh;
   const auto a = mesh.source(h), b = mesh.target(h), v = state.apex(h), w = state.apex(mesh.opposite(h));
   const Vector3d n = (state.contact_normal(a) + state.contact_normal(b)).stableNormalized();
-  const double height = std::min(height_over(state, v, a), height_over(state, v, b));
-  if (!(height < least_film * state.options.band.edge_min)) return false;
+  const double height = height_of_apex(state, h);
+  if (!is_film_of(state, height)) return false;
   if (v == w || are_joined(mesh, v, w)) return false;
   if (state.connectivity.degree(a) < 4 || state.connectivity.degree(b) < 4) return false;
   const Vector3d x = state.point(v) - height * n;
@@ -96,10 +109,7 @@ bool try_dewet(RemeshState& state, HalfedgeIndex h) {
 
 bool is_film(const RemeshState& state, FaceIndex f) {
   const auto h = line_edge(state, f);
-  if (h == Mesh::null_halfedge()) return false;
-  const auto v = state.apex(h);
-  return std::min(height_over(state, v, state.mesh.source(h)), height_over(state, v, state.mesh.target(h))) <
-         least_film * state.options.band.edge_min;
+  return h != Mesh::null_halfedge() && is_film_of(state, height_of_apex(state, h));
 }
 
 void dewet(RemeshState& state) {

@@ -2,7 +2,6 @@
 #include "boolean_seam.h"
 #include "face_grid.h"
 #include "meniscus/geometry/rigid_motion.h"
-#include "meniscus/topology/self_union.h"
 #include "merge_parts.h"
 #include "sheet_guard.h"
 
@@ -11,8 +10,6 @@
 
 namespace meniscus {
 namespace {
-
-std::array<double, 3> to_array(const Eigen::Vector3d& x) { return {x.x(), x.y(), x.z()}; }
 
 Eigen::Vector3d mean_velocity(const Drop& drop) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -75,136 +72,188 @@ void relax(Drop& drop, std::uint32_t v, SheetGuard& guard) {
 }
 
 /// Relaxes vertices one after another.
-void relax(Drop& drop, const std::vector<std::uint32_t>& vertices, const Eigen::AlignedBox3d& region, double cell) {
+void relax(Drop& drop, const std::vector<std::uint32_t>& vertices, const WatchedRegion& region, double cell) {
   if (vertices.empty()) return;
   SheetGuard guard(drop, region, cell);
   for (const auto v : vertices)
     if (!is_colliding(drop.contact()[v])) relax(drop, v, guard);
 }
 
-/// The faces of a drop that meet a region, and which of them meet each other elsewhere than in what they share.
+/// Some faces of a drop, and which of them meet each other elsewhere than in what they share.
 class FoldFinder {
  public:
-  FoldFinder(const Drop& drop, const Eigen::AlignedBox3d& region)
-      : drop_(drop), faces_(faces_in(view_of(drop), region)), place_(drop.connectivity().triangles().size(), none) {
+  using Pair = std::array<std::uint32_t, 2>;
+
+  FoldFinder(const Drop& drop, std::vector<FaceBox> faces)
+      : drop_(drop),
+        faces_(std::move(faces)),
+        grid_(faces_),
+        place_(drop.connectivity().triangles().size(), none),
+        has_moved_(faces_.size(), 0),
+        is_waiting_(faces_.size(), 0) {
     for (std::uint32_t k = 0; k < faces_.size(); ++k) place_[faces_[k].face] = k;
-    is_moved_.assign(faces_.size(), 1);
+    const MeshView mesh = view_of(drop_);
+    for (const FaceBox& f : faces_)
+      grid_.for_each_meeting(f.box, [&](const FaceBox& g) {
+        if (f.face < g.face && boolean_parts::faces_meet(mesh, f.face, g.face)) meeting_.push_back({f.face, g.face});
+        return true;
+      });
+    std::sort(meeting_.begin(), meeting_.end());
   }
   /// The vertex has another place now.
   void move(std::uint32_t v) {
     const Ring ring = drop_.connectivity().ring(v);
     for (int k = 0; k < ring.degree; ++k) {
       const std::uint32_t place = place_[ring.corner[k] / 3];
-      if (place == none) continue;
-      is_moved_[place] = 1;
-      faces_[place].box.setEmpty();
-      for (const auto w : drop_.connectivity().triangles()[faces_[place].face])
-        faces_[place].box.extend(Eigen::Vector3d(drop_.positions().col(w)));
+      if (place == none || is_waiting_[place] != 0) continue;
+      is_waiting_[place] = has_moved_[place] = 1;
+      waiting_.push_back(place);
     }
   }
-  /// Pairs of faces that meet, sorted. At the first call all are tested, then those that moved since.
-  const std::vector<std::array<std::uint32_t, 2>>& find(Folds folds) {
-    const MeshView mesh = view_of(drop_);
-    const auto has_moved = [&](std::uint32_t face) { return is_moved_[place_[face]] != 0; };
-    meeting_.erase(std::remove_if(meeting_.begin(), meeting_.end(),
-                                  [&](const auto& pair) { return has_moved(pair[0]) || has_moved(pair[1]); }),
-                   meeting_.end());
-    const FaceGrid grid(faces_);
-    for (std::uint32_t k = 0; k < faces_.size(); ++k) {
-      if (is_moved_[k] == 0) continue;
-      const std::uint32_t f = faces_[k].face;
-      grid.for_each_meeting(faces_[k].box, [&](const FaceBox& other) {
-        const std::uint32_t g = other.face;
-        if (g == f || (g < f && has_moved(g))) return true;  // it itself, or seen from the other side
-        if (folds == Folds::between_neighbours && !share_a_vertex(mesh.triangles[f], mesh.triangles[g])) return true;
-        if (boolean_parts::faces_meet(mesh, f, g)) meeting_.push_back({std::min(f, g), std::max(f, g)});
-        return true;
-      });
-    }
-    std::fill(is_moved_.begin(), is_moved_.end(), std::uint8_t{0});
-    std::sort(meeting_.begin(), meeting_.end());
+  /// Pairs of faces that meet, sorted.
+  const std::vector<Pair>& meeting() {
+    if (!waiting_.empty()) look_again();
     return meeting_;
   }
 
  private:
   static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+  /// The grid knows faces where they were first; those that have moved since are in one of their own.
+  void look_again() {
+    const MeshView mesh = view_of(drop_);
+    const auto waits = [&](std::uint32_t face) { return is_waiting_[place_[face]] != 0; };
+    meeting_.erase(
+        std::remove_if(meeting_.begin(), meeting_.end(), [&](const Pair& p) { return waits(p[0]) || waits(p[1]); }),
+        meeting_.end());
+    std::vector<FaceBox> moved;
+    for (std::uint32_t k = 0; k < faces_.size(); ++k)
+      if (has_moved_[k] != 0) moved.push_back({box_now(faces_[k].face), faces_[k].face});
+    const FaceGrid moved_grid(moved);
+    for (const std::uint32_t place : waiting_) {
+      const std::uint32_t f = faces_[place].face;
+      const auto test = [&](std::uint32_t g) {
+        if (boolean_parts::faces_meet(mesh, f, g)) meeting_.push_back({std::min(f, g), std::max(f, g)});
+        return true;
+      };
+      const Eigen::AlignedBox3d box = box_now(f);
+      grid_.for_each_meeting(box, [&](const FaceBox& g) { return has_moved_[place_[g.face]] != 0 || test(g.face); });
+      moved_grid.for_each_meeting(box, [&](const FaceBox& g) {
+        const bool is_seen_from_there = waits(g.face) && g.face < f;
+        return g.face == f || is_seen_from_there || test(g.face);
+      });
+    }
+    for (const std::uint32_t place : waiting_) is_waiting_[place] = 0;
+    waiting_.clear();
+    std::sort(meeting_.begin(), meeting_.end());
+  }
+  Eigen::AlignedBox3d box_now(std::uint32_t face) const {
+    Eigen::AlignedBox3d box;
+    for (const auto v : drop_.connectivity().triangles()[face]) box.extend(Eigen::Vector3d(drop_.positions().col(v)));
+    return box;
+  }
+
   const Drop& drop_;
-  std::vector<FaceBox> faces_;
+  const std::vector<FaceBox> faces_;
+  const FaceGrid grid_;
   std::vector<std::uint32_t> place_;  // of a face in the list
-  std::vector<std::uint8_t> is_moved_;
-  std::vector<std::array<std::uint32_t, 2>> meeting_;
+  std::vector<std::uint8_t> has_moved_, is_waiting_;
+  std::vector<std::uint32_t> waiting_;  // places of faces that have moved since the last look
+  std::vector<Pair> meeting_;
 };
 
-/// Takes vertices back until no faces of the region meet; lists them. See mend_folds.
-std::vector<std::uint32_t> take_back(Drop& drop, const Eigen::Matrix3Xd& before, const Eigen::AlignedBox3d& region,
-                                     Folds folds) {
-  constexpr int narrow_rounds = 6, most_rounds = 16;
-  if (before.cols() != static_cast<Eigen::Index>(drop.num_rows())) return {};
-  RigidMotion velocity;
-  const Eigen::Matrix3Xd sound = carried_along(std::as_const(drop), before, velocity);
-  FoldFinder finder(drop, region);
-  std::vector<std::uint8_t> is_back(drop.num_rows(), 0);
-  std::vector<std::uint32_t> taken;
-  const auto take = [&](std::uint32_t v) {
-    if (is_back[v] != 0 || drop.connectivity().degree(v) == 0) return;
-    is_back[v] = 1;
-    taken.push_back(v);
-    drop.positions().col(v) = sound.col(v);
-    if (!is_colliding(drop.contact()[v])) drop.velocities().col(v) = velocity.at(sound.col(v));
-    drop.seam_watch()[v] = std::max(drop.seam_watch()[v], violent_watched_calls);
-    finder.move(v);
-  };
-  for (int round = 0; round < most_rounds; ++round) {
-    const auto& meeting = finder.find(folds);
-    if (meeting.empty()) return taken;
-    const std::size_t count = taken.size();
-    for (const auto& pair : meeting)
-      for (const auto face : pair)
-        for (const auto v : drop.connectivity().triangles()[face]) take(v);
-    if (taken.size() > count && round < narrow_rounds) continue;
-    for (std::size_t k = 0, size = taken.size(); k < size; ++k) {
-      const Ring ring = drop.connectivity().ring(taken[k]);
-      for (int n = 0; n < ring.degree; ++n) take(ring.neighbour[n]);
+/// Takes vertices of a drop back to where they were before the substep.
+class TakeBack {
+ public:
+  TakeBack(Drop& drop, const Eigen::Matrix3Xd& before, FoldFinder& finder)
+      : drop_(drop),
+        finder_(finder),
+        sound_(carried_along(std::as_const(drop), before, velocity_)),
+        is_back_(drop.num_rows(), 0) {}
+
+  /// Until no faces that `folds` speaks of meet. See mend_folds.
+  void run(Folds folds) {
+    constexpr int narrow_rounds = 6, most_rounds = 16;
+    for (int round = 0; round < most_rounds; ++round) {
+      const std::vector<FoldFinder::Pair> meeting = of_kind(folds);
+      if (meeting.empty()) return;
+      const std::size_t count = taken_.size();
+      for (const auto& pair : meeting)
+        for (const auto face : pair)
+          for (const auto v : drop_.connectivity().triangles()[face]) take(v);
+      if (taken_.size() > count && round < narrow_rounds) continue;
+      for (std::size_t k = 0, size = taken_.size(); k < size; ++k) {
+        const Ring ring = drop_.connectivity().ring(taken_[k]);
+        for (int n = 0; n < ring.degree; ++n) take(ring.neighbour[n]);
+      }
     }
+    for (std::uint32_t v = 0; v < is_back_.size(); ++v) take(v);
   }
-  for (std::uint32_t v = 0; v < is_back.size(); ++v) take(v);
-  return taken;
-}
+  const std::vector<std::uint32_t>& taken() const { return taken_; }
+
+ private:
+  std::vector<FoldFinder::Pair> of_kind(Folds folds) {
+    std::vector<FoldFinder::Pair> meeting = finder_.meeting();
+    const auto& triangles = drop_.connectivity().triangles();
+    if (folds == Folds::between_neighbours)
+      meeting.erase(std::remove_if(meeting.begin(), meeting.end(),
+                                   [&](const auto& p) { return !share_a_vertex(triangles[p[0]], triangles[p[1]]); }),
+                    meeting.end());
+    return meeting;
+  }
+  void take(std::uint32_t v) {
+    if (is_back_[v] != 0 || drop_.connectivity().degree(v) == 0) return;
+    is_back_[v] = 1;
+    taken_.push_back(v);
+    drop_.positions().col(v) = sound_.col(v);
+    if (!is_colliding(drop_.contact()[v])) drop_.velocities().col(v) = velocity_.at(sound_.col(v));
+    drop_.seam_watch()[v] = std::max(drop_.seam_watch()[v], violent_watched_calls);
+    finder_.move(v);
+  }
+
+  Drop& drop_;
+  FoldFinder& finder_;
+  RigidMotion velocity_;
+  const Eigen::Matrix3Xd sound_;
+  std::vector<std::uint8_t> is_back_;
+  std::vector<std::uint32_t> taken_;
+};
 
 }  // namespace
 
-MeshData soup_in(const Drop& drop, const Eigen::AlignedBox3d& region) {
-  MeshData soup;
-  const ConstColumns x = drop.positions();
-  for (Eigen::Index i = 0; i < x.cols(); ++i) soup.points.push_back(to_array(x.col(i)));
-  for (const FaceBox& face : faces_in(view_of(drop), region))
-    soup.triangles.push_back(drop.connectivity().triangles()[face.face]);
-  return soup;
+bool meet_each_other(const Drop& drop, const std::vector<FaceBox>& faces) {
+  const MeshView mesh = view_of(drop);
+  const FaceGrid grid(faces);
+  return std::any_of(faces.begin(), faces.end(), [&](const FaceBox& f) {
+    return !grid.for_each_meeting(
+        f.box, [&](const FaceBox& g) { return g.face <= f.face || !boolean_parts::faces_meet(mesh, f.face, g.face); });
+  });
 }
 
 std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& before, const MergeOptions& options,
                                             Remesher& remesher, MergeReport& report) {
-  const Eigen::AlignedBox3d region =
-      options.self_merge ? bounding_box(drop) : SheetGuard::region_of(drop, options.remesh.band.edge_max);
-  if (region.isEmpty()) return std::nullopt;
-  const auto unite = [&] { return unite_with_itself(view_of(std::as_const(drop)), region, options.keep_air); };
-  BooleanResult result = unite();
-  if (result.ok() && result.outcome == BooleanOutcome::disjoint) {
+  const WatchedRegion region =
+      options.self_merge ? WatchedRegion() : watched_region(drop, options.remesh.band.edge_max);
+  if (region.empty()) return std::nullopt;
+  std::vector<FaceBox> faces = region.faces_of(drop);
+  FoldFinder finder(drop, faces);
+  if (finder.meeting().empty()) {
     count_down_watch(drop, options.remesh.band.edge_max);
     return std::nullopt;
   }
   const Ledger ledger = measure_ledger(drop);
-  std::vector<std::uint32_t> taken;
-  if (!result.ok()) {  // perhaps for the sake of a few faces that fold over their neighbours
-    taken = take_back(drop, before, region, Folds::between_neighbours);
-    result = unite();
+  std::optional<TakeBack> take_back;
+  if (before.cols() == static_cast<Eigen::Index>(drop.num_rows())) take_back.emplace(drop, before, finder);
+  if (take_back) take_back->run(Folds::between_neighbours);  // no union mends these
+  BooleanResult result;
+  if (!finder.meeting().empty()) {
+    faces = region.faces_of(drop);
+    result = unite_with_itself(view_of(std::as_const(drop)), faces, options.keep_air);
+    if (!result.ok() && take_back) take_back->run(Folds::all);
   }
-  if (!result.ok()) {
-    const std::vector<std::uint32_t> more = take_back(drop, before, region, Folds::all);
-    taken.insert(taken.end(), more.begin(), more.end());
-  }
+  const std::vector<std::uint32_t> taken = take_back ? take_back->taken() : std::vector<std::uint32_t>();
   report.taken_back += taken.size();
-  if (!result.ok() || result.outcome == BooleanOutcome::disjoint) {
+  if (!result.ok() || result.outcome != BooleanOutcome::crossing) {
     if (taken.empty()) count_down_watch(drop, options.remesh.band.edge_max);
     relax(drop, taken, region, options.remesh.band.edge_max);
     const bool is_measurable = std::abs(ledger.volume / drop.target_volume() - 1) < largest_volume_error;

@@ -2,12 +2,11 @@
 #include "meniscus/topology/merge.h"
 
 #include "attribute_maps.h"
-#include "meniscus/geometry/self_intersection.h"
 #include "meniscus/state/contact_line.h"
 #include "meniscus/state/ledger.h"
 #include "meniscus/topology/split.h"
 #include "merge_parts.h"
-#include "sheet_guard.h"
+#include "watched_region.h"
 #include "zip_seams.h"
 
 #include <Eigen/Geometry>
@@ -198,8 +197,8 @@ void give_back(std::vector<Drop>& pieces, const Ledger& ledger, const MergeOptio
   const std::vector<Drop> start = pieces;
   restore_ledger(pieces, ledger);
   const auto meets_itself = [&](const Drop& piece) {
-    const Eigen::AlignedBox3d region = SheetGuard::region_of(piece, options.remesh.band.edge_max);
-    return !region.isEmpty() && !self_intersections(soup_in(piece, region), 1).empty();
+    const WatchedRegion region = watched_region(piece, options.remesh.band.edge_max);
+    return !region.empty() && meet_each_other(piece, region.faces_of(piece));
   };
   if (std::none_of(pieces.begin(), pieces.end(), meets_itself)) return;
   pieces = start;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "face_grid.h"
 #include "meniscus/state/ledger.h"
 #include "meniscus/topology/merge.h"
 
@@ -21,7 +22,10 @@ void count_down_watch(Drop& drop, double reach);
 std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, const Ledger& ledger,
                           double target_volume, const MergeOptions& options, Remesher& remesher, MergeReport& report);
 
-/// The faces of a drop that meet a region, as a soup of the drop's rows.
-MeshData soup_in(const Drop& drop, const Eigen::AlignedBox3d& region);
+/// Whether any two of the faces meet elsewhere than in what they share.
+bool meet_each_other(const Drop& drop, const std::vector<FaceBox>& faces);
+
+/// unite_with_itself of the given faces, which are sorted by index.
+BooleanResult unite_with_itself(const MeshView& mesh, const std::vector<FaceBox>& faces, bool keep_cavities);
 
 }  // namespace meniscus

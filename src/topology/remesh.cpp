@@ -198,8 +198,8 @@ RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOpt
   const bool rests = scratch.splits.empty() && scratch.collapses.empty() && scratch.flips.empty() &&
                      !state.has_turned_faces && !state.has_films;
   if (rests && (options.smoothing == 0 || !state.has_sharp_angle)) return state.report;
-  const Eigen::AlignedBox3d watched = SheetGuard::region_of(drop, options.band.edge_max);
-  if (!watched.isEmpty()) scratch.guard.emplace(drop, watched, options.band.edge_max);
+  WatchedRegion watched = watched_region(drop, options.band.edge_max);
+  if (!watched.empty()) scratch.guard.emplace(drop, std::move(watched), options.band.edge_max);
   run_passes(state);
   scratch.guard.reset();
   mark_poor_quality(state);

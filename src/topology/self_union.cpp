@@ -4,6 +4,7 @@
 #include "boolean_cut.h"
 #include "boolean_parts.h"
 #include "meniscus/core/index_sets.h"
+#include "merge_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,7 +115,10 @@ BooleanResult assemble(const MeshView& mesh, const Seam& seam, const CutFaces& c
 }  // namespace
 
 BooleanResult unite_with_itself(const MeshView& mesh, const Eigen::AlignedBox3d& region, bool keep_cavities) {
-  const std::vector<FaceBox> faces = faces_in(mesh, region);
+  return unite_with_itself(mesh, faces_in(mesh, region), keep_cavities);
+}
+
+BooleanResult unite_with_itself(const MeshView& mesh, const std::vector<FaceBox>& faces, bool keep_cavities) {
   const auto seam = find_self_seam(mesh, faces);
   if (!seam) return refuse("the surface folds over between neighbouring faces");
   BooleanResult result;

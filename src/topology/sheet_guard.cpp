@@ -11,9 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// So that a drop that blew up does not ask for a cell for each point of space.
-constexpr double most_cells_along = 200;
-
 bool holds(const std::vector<std::uint32_t>& list, std::uint32_t x) {
   return std::find(list.begin(), list.end(), x) != list.end();
 }
@@ -24,40 +21,42 @@ Eigen::AlignedBox3d box_of_points(const std::array<Vector3d, 3>& points) {
   return box;
 }
 
-}  // namespace
-
-Eigen::AlignedBox3d SheetGuard::region_of(const Drop& drop, double edge_max) {
-  const ConstColumns x = drop.positions();
-  const std::uint8_t* watch = drop.seam_watch();
-  Eigen::AlignedBox3d region;
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-    if (watch[i] != 0 && drop.connectivity().degree(i) > 0) region.extend(Vector3d(x.col(i)));
-  if (region.isEmpty()) return region;
-  const double margin = 0.5 * region.sizes().maxCoeff() + 3 * edge_max;
-  region.min().array() -= margin;
-  region.max().array() += margin;
-  return region;
+/// The corners of t that s lacks lie on one side of s, by more than rounding can tell: the two meet in what they share
+/// only.
+bool is_clearly_beside(const SheetGuard::NewFace& s, const SheetGuard::NewFace& t) {
+  constexpr double rounding = 1e-10;
+  const Vector3d u = s.points[1] - s.points[0], v = s.points[2] - s.points[0], n = u.cross(v);
+  const double size = n.norm();
+  double side = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (std::find(s.vertices.begin(), s.vertices.end(), t.vertices[k]) != s.vertices.end()) continue;
+    const Vector3d w = t.points[k] - s.points[0];
+    const double height = n.dot(w);
+    if (!(std::abs(height) > rounding * size * (w.norm() + u.norm() + v.norm())) || height * side < 0) return false;
+    side = height;
+  }
+  return side != 0;
 }
 
-SheetGuard::SheetGuard(const Drop& drop, const Eigen::AlignedBox3d& region, double cell)
-    : drop_(drop), region_(region), cell_(std::max(cell, region.sizes().maxCoeff() / most_cells_along)) {
-  const auto& triangles = drop.connectivity().triangles();
-  for (std::uint32_t f = 0; f < triangles.size(); ++f)
-    if (triangles[f][0] != Connectivity::removed) add(f);
+}  // namespace
+
+SheetGuard::SheetGuard(const Drop& drop, WatchedRegion region, double cell)
+    : drop_(drop), region_(std::move(region)), cell_(cell) {
+  for (const FaceBox& face : region_.faces_of(drop)) add_to_cells(face.face, face.box);
+}
+
+SheetGuard::Cell SheetGuard::cell_of(const Vector3d& x) const {
+  return {static_cast<std::int64_t>(std::floor(x[0] / cell_)), static_cast<std::int64_t>(std::floor(x[1] / cell_)),
+          static_cast<std::int64_t>(std::floor(x[2] / cell_))};
 }
 
 template <class Visit>
 void SheetGuard::for_each_cell(const Eigen::AlignedBox3d& box, Visit visit) const {
-  const auto index = [&](double x) { return static_cast<std::int64_t>(std::floor(x / cell_)); };
-  const Eigen::AlignedBox3d inside = box.intersection(region_);
-  const auto& low = inside.min();
-  const auto& high = inside.max();
-  for (std::int64_t i = index(low.x()); i <= index(high.x()); ++i)
-    for (std::int64_t j = index(low.y()); j <= index(high.y()); ++j)
-      for (std::int64_t k = index(low.z()); k <= index(high.z()); ++k) visit(Cell{i, j, k});
+  const Cell low = cell_of(box.min()), high = cell_of(box.max());
+  for (std::int64_t i = low[0]; i <= high[0]; ++i)
+    for (std::int64_t j = low[1]; j <= high[1]; ++j)
+      for (std::int64_t k = low[2]; k <= high[2]; ++k) visit(Cell{i, j, k});
 }
-
-Eigen::AlignedBox3d SheetGuard::box_of(std::uint32_t face) const { return box_of_points(face_at(face).points); }
 
 SheetGuard::NewFace SheetGuard::face_at(std::uint32_t face) const {
   const auto& t = drop_.connectivity().triangles()[face];
@@ -66,8 +65,11 @@ SheetGuard::NewFace SheetGuard::face_at(std::uint32_t face) const {
 }
 
 void SheetGuard::add(std::uint32_t face) {
-  const Eigen::AlignedBox3d box = box_of(face);
-  if (!box.intersects(region_)) return;
+  const NewFace known = face_at(face);
+  if (region_.covers(known.points)) add_to_cells(face, box_of_points(known.points));
+}
+
+void SheetGuard::add_to_cells(std::uint32_t face, const Eigen::AlignedBox3d& box) {
   for_each_cell(box, [&](const Cell& cell) {
     auto& list = faces_[cell];
     if (list.empty() || list.back() != face) list.push_back(face);
@@ -75,6 +77,7 @@ void SheetGuard::add(std::uint32_t face) {
 }
 
 bool SheetGuard::meet(const NewFace& s, const NewFace& t) const {
+  if (is_clearly_beside(s, t) || is_clearly_beside(t, s)) return false;
   points_.clear();
   std::array<std::uint32_t, 6> names{};
   std::size_t known = 0;
@@ -97,8 +100,8 @@ bool SheetGuard::meet(const NewFace& s, const NewFace& t) const {
 bool SheetGuard::would_meet(const std::vector<NewFace>& faces, const std::vector<std::uint32_t>& replaced,
                             const std::vector<std::uint32_t>& removed) const {
   for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (!region_.covers(faces[i].points)) continue;
     const Eigen::AlignedBox3d box = box_of_points(faces[i].points);
-    if (!box.intersects(region_)) continue;
     for (std::size_t j = 0; j < i; ++j)
       if (meet(faces[i], faces[j])) return true;
     bool found = false;
@@ -110,7 +113,9 @@ bool SheetGuard::would_meet(const std::vector<NewFace>& faces, const std::vector
         if (t[0] == Connectivity::removed || holds(removed, g)) continue;
         if (holds(replaced, t[0]) || holds(replaced, t[1]) || holds(replaced, t[2])) continue;
         const NewFace other = face_at(g);
-        if (box.intersects(box_of_points(other.points)) && meet(faces[i], other)) {
+        const Eigen::AlignedBox3d other_box = box_of_points(other.points);
+        if (!box.intersects(other_box) || cell_of(box.min().cwiseMax(other_box.min())) != cell) continue;  // once
+        if (meet(faces[i], other)) {
           found = true;
           return;
         }

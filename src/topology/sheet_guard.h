@@ -3,6 +3,7 @@
 
 #include "meniscus/core/types.h"
 #include "meniscus/state/drop.h"
+#include "watched_region.h"
 
 #include <Eigen/Geometry>
 
@@ -23,12 +24,8 @@ class SheetGuard {
     std::array<Eigen::Vector3d, 3> points;
   };
 
-  /// The watched region of a drop: the vertices whose seam_watch is not 0, as far again as they extend and
-  /// three edges of `edge_max` more. Empty if there are none.
-  static Eigen::AlignedBox3d region_of(const Drop& drop, double edge_max);
-
   /// Keeps a reference to the drop. `cell`: the length of the grid's cells, near that of an edge.
-  SheetGuard(const Drop& drop, const Eigen::AlignedBox3d& region, double cell);
+  SheetGuard(const Drop& drop, WatchedRegion region, double cell);
 
   /// Whether the new faces meet each other, or a face that stays: one that holds none of `replaced` vertices, or is
   /// not among the `removed` faces.
@@ -36,7 +33,7 @@ class SheetGuard {
                   const std::vector<std::uint32_t>& removed) const;
 
   /// Whether a point is in the region.
-  bool covers(const Eigen::Vector3d& x) const { return region_.contains(x); }
+  bool covers(const Eigen::Vector3d& x) const { return region_.covers(x); }
 
   /// A face was made or moved. No matter if it is known already.
   void add(std::uint32_t face);
@@ -48,14 +45,15 @@ class SheetGuard {
       return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
     }
   };
+  Cell cell_of(const Eigen::Vector3d& x) const;
   template <class Visit>
   void for_each_cell(const Eigen::AlignedBox3d& box, Visit visit) const;
-  Eigen::AlignedBox3d box_of(std::uint32_t face) const;
+  void add_to_cells(std::uint32_t face, const Eigen::AlignedBox3d& box);
   bool meet(const NewFace& s, const NewFace& t) const;
   NewFace face_at(std::uint32_t face) const;
 
   const Drop& drop_;
-  Eigen::AlignedBox3d region_;
+  WatchedRegion region_;
   double cell_;
   std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> faces_;
   mutable std::vector<std::array<double, 3>> points_;  // of one test

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "watched_region.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+using Eigen::Vector3d;
+
+/// So that a drop that blew up does not ask for a cell for each point of space.
+constexpr double most_cells_along = 1e6;
+
+}  // namespace
+
+WatchedRegion::WatchedRegion(const Drop& drop, double reach) {
+  const ConstColumns x = drop.positions();
+  const std::uint8_t* watch = drop.seam_watch();
+  const auto is_watched = [&](std::uint32_t v) { return watch[v] != 0 && drop.connectivity().degree(v) > 0; };
+  double size = 0;
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
+    if (is_watched(v)) size = std::max(size, x.col(v).cwiseAbs().maxCoeff());
+  per_length_ = 1 / std::max(reach, size / most_cells_along);
+  std::unordered_set<Cell, Hash> watched;
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
+    if (is_watched(v)) watched.insert(cell(x.col(v)));
+  for (const Cell& c : watched)
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        for (int k = -1; k <= 1; ++k) cells_.insert({c[0] + i, c[1] + j, c[2] + k});
+}
+
+WatchedRegion::Cell WatchedRegion::cell(const Vector3d& x) const {
+  return {static_cast<std::int64_t>(std::floor(x[0] * per_length_)),
+          static_cast<std::int64_t>(std::floor(x[1] * per_length_)),
+          static_cast<std::int64_t>(std::floor(x[2] * per_length_))};
+}
+
+std::vector<FaceBox> WatchedRegion::faces_of(const Drop& drop) const {
+  const ConstColumns x = drop.positions();
+  std::vector<std::uint8_t> is_covered(drop.num_rows(), 1);
+  for (std::uint32_t v = 0; v < drop.num_rows() && !is_everywhere_; ++v) is_covered[v] = covers(Vector3d(x.col(v)));
+  std::vector<FaceBox> faces;
+  const auto& triangles = drop.connectivity().triangles();
+  for (std::uint32_t f = 0; f < triangles.size(); ++f) {
+    const auto& [a, b, c] = triangles[f];
+    if (a == Connectivity::removed || (is_covered[a] | is_covered[b] | is_covered[c]) == 0) continue;
+    const Vector3d p = x.col(a), q = x.col(b), r = x.col(c);
+    faces.push_back({{p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r)}, f});
+  }
+  return faces;
+}
+
+WatchedRegion watched_region(const Drop& drop, double edge_max) {
+  constexpr double reach_in_edges = 2;
+  return {drop, reach_in_edges * edge_max};
+}
+
+}  // namespace meniscus

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "face_grid.h"
+#include "meniscus/state/drop.h"
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <unordered_set>
+#include <vector>
+
+namespace meniscus {
+
+/// Where sheets of a drop's surface may be close together: all within one to two `reach` of a watched vertex
+/// (Drop::seam_watch), as cells of a grid.
+class WatchedRegion {
+ public:
+  /// `reach` in cm: some edges long.
+  WatchedRegion(const Drop& drop, double reach);
+  /// All of space.
+  WatchedRegion() : is_everywhere_(true) {}
+
+  bool empty() const { return !is_everywhere_ && cells_.empty(); }
+  bool covers(const Eigen::Vector3d& x) const { return is_everywhere_ || cells_.count(cell(x)) != 0; }
+  /// Any of its corners is in the region.
+  bool covers(const std::array<Eigen::Vector3d, 3>& face) const {
+    return covers(face[0]) || covers(face[1]) || covers(face[2]);
+  }
+  /// The faces that it covers, in the order of their indices.
+  std::vector<FaceBox> faces_of(const Drop& drop) const;
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+  struct Hash {
+    std::size_t operator()(const Cell& c) const {
+      return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
+    }
+  };
+  Cell cell(const Eigen::Vector3d& x) const;
+
+  bool is_everywhere_ = false;
+  double per_length_ = 0;
+  std::unordered_set<Cell, Hash> cells_;
+};
+
+/// The region near watched vertices that sheets may reach before it is looked at again.
+WatchedRegion watched_region(const Drop& drop, double edge_max);
+
+}  // namespace meniscus

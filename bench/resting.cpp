@@ -4,20 +4,62 @@
 #include "meniscus/simulation/simulation.h"
 #include "meniscus/state/contact_line.h"
 #include "references/drop_at_rest.h"
-#include "support/process.h"
-#include "support/rest.h"
 
 #include <fmt/format.h>
+#include <Eigen/QR>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 
 namespace {
 
 using namespace meniscus;
-using namespace meniscus::bench;
+using Eigen::Vector3d;
 
 constexpr double degree = pi / 180;
+
+double cpu_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double top(const Drop& drop) {
+  double height = 0;
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
+    if (drop.connectivity().degree(v) > 0) height = std::max(height, drop.positions()(2, v));
+  return height;
+}
+
+/// The contact angle (radians) of a drop of revolution on z = 0: dr/dz = -cot(theta) there, of the cubic r(z)
+/// nearest to the free and line vertices of the lowest third, about the middle of the line.
+double profile_angle(const Drop& drop) {
+  std::vector<std::uint32_t> low;
+  Vector3d middle = Vector3d::Zero();
+  int line = 0;
+  const double limit = top(drop) / 3;
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
+    if (drop.connectivity().degree(v) == 0 || drop.contact()[v] == Contact::wetted) continue;
+    if (drop.positions()(2, v) < limit) low.push_back(v);
+    if (drop.contact()[v] != Contact::line) continue;
+    middle += drop.positions().col(v);
+    ++line;
+  }
+  if (line == 0 || low.size() < 8) return std::nan("");
+  middle /= line;
+  Eigen::MatrixX4d powers(low.size(), 4);
+  Eigen::VectorXd r(low.size());
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    const Vector3d x = drop.positions().col(low[i]);
+    const double z = x.z() / limit;
+    powers.row(static_cast<Eigen::Index>(i)) << 1, z, z * z, z * z * z;
+    r[static_cast<Eigen::Index>(i)] = std::hypot(x.x() - middle.x(), x.y() - middle.y());
+  }
+  const double slope = powers.colPivHouseholderQr().solve(r)[1] / limit;
+  return std::atan2(1, -slope);
+}
 
 void print_rest(double radius, double angle_deg, double edges) {
   Scene scene = default_scene();
@@ -41,7 +83,7 @@ void print_rest(double radius, double angle_deg, double edges) {
   const auto exact =
       references::drop_at_rest(drop.target_volume(), angle_deg * degree, 981, scene.liquid, references::Hold::sessile);
   fmt::print("{:>6} {:>6} {:>10} {:>10.3f} {:>10.3f} {:>12.2f} {:>8.2f}\n", radius, angle_deg,
-             std::size_t{drop.mesh().number_of_faces()}, 100 * (height_of(drop) / exact.height - 1),
+             std::size_t{drop.mesh().number_of_faces()}, 100 * (top(drop) / exact.height - 1),
              100 * (std::sqrt(wetted_area(drop) / pi) / exact.contact_radius - 1),
              profile_angle(drop) / degree - angle_deg, seconds);
 }

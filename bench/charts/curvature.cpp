@@ -135,7 +135,7 @@ ChartTable curvature_chart(bool quick) {
   for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8}) {
     if (quick && tolerance < 1e-3) continue;
     const double error = std::abs(flow_error(16, 32, tolerance) - converged);
-    table.add({std::string("tolerance"), std::string("2562 vertices, 32 steps"), 1 / tolerance, error, error});
+    table.add({std::string("tolerance"), std::string("2562 vertices in 32 steps"), 1 / tolerance, error, error});
   }
   return table;
 }

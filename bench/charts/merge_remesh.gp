@@ -4,7 +4,7 @@ set terminal svg size 1180,480 font 'sans-serif,13' background rgb 'white'
 set output data.'/merge_remesh.svg'
 set logscale xy
 set multiplot layout 1,3 title "Two balls of R = 0.2 cm become one drop: what merging and remeshing bring in\n{/*0.75 ".stamp('merge_remesh').'}' font ',15' \
-  margins 0.07,0.98,0.14,0.84 spacing 0.08,0
+  margins 0.07,0.98,0.14,0.78 spacing 0.08,0
 set xlabel 'edge length, cm'
 set format y '10^{%L}'
 set xtics (0.005, 0.01, 0.02, 0.04)

@@ -4,7 +4,7 @@ set terminal svg size 1100,480 font 'sans-serif,13' background rgb 'white'
 set output data.'/size.svg'
 set logscale xy
 set multiplot layout 1,2 title "Processor time of a step on one thread, in the air, remeshing on\n{/*0.75 ".stamp('size').'}' font ',15' \
-  margins 0.08,0.98,0.13,0.84 spacing 0.1,0
+  margins 0.08,0.98,0.13,0.78 spacing 0.1,0
 slope(l) = system(sprintf("awk -F, '$1==\"%s\" {printf \"%%.2f\", $7; exit}' %s/size.csv", l, data))
 set title 'one drop'
 set xlabel 'triangles'

@@ -3,7 +3,7 @@ load style
 set terminal svg size 1180,460 font 'sans-serif,13' background rgb 'white'
 set output data.'/volume_correction.svg'
 set multiplot layout 1,3 title "What volume correction does to modes 2 to 6 and to the volume (dt = 1/4000 s)\n{/*0.75 ".stamp('volume_correction').'}' font ',15' \
-  margins 0.06,0.80,0.13,0.82 spacing 0.07,0
+  margins 0.06,0.80,0.13,0.78 spacing 0.07,0
 corrections = 'none local global both'
 line(c) = c eq 'none' ? 3 : c eq 'local' ? 2 : c eq 'global' ? 1 : 4
 point(c) = c eq 'none' ? 6 : c eq 'local' ? 8 : c eq 'global' ? 7 : 5

@@ -36,7 +36,7 @@ std::vector<Method> methods() {
     all.push_back({operator_names[k], [k](const TrialCase& t) { return try_operator(static_cast<Operator>(k), t); }});
   for (const NamedLevel& level : levels)
     for (const bool on_plane : {false, true})
-      all.push_back({std::string(level.name) + (on_plane ? ", plane" : ", air"),
+      all.push_back({std::string(level.name) + (on_plane ? " on plane" : " in air"),
                      [=](const TrialCase& trial) { return try_level(level.level, on_plane, trial); }});
   return all;
 }

@@ -49,7 +49,7 @@ enum class Operator {
   global_positions_only,  ///< the same without the correction's part in the velocities
   local_as_written,       ///< Eqs 9 to 11, then global
 };
-inline constexpr std::array<const char*, 4> operator_names{"viscosity", "global volume", "global, x only",
+inline constexpr std::array<const char*, 4> operator_names{"viscosity", "global volume", "global on x only",
                                                            "local (Eqs 9-11)"};
 TrialResult try_operator(Operator which, const TrialCase& trial);
 

@@ -38,6 +38,9 @@ ChartTable::ChartTable(std::string name, std::string title, std::vector<std::str
 void ChartTable::add(std::vector<Cell> row) {
   if (row.size() != columns_.size())
     throw UsageError(fmt::format("{}: {} cells for {} columns", name_, row.size(), columns_.size()));
+  for (const Cell& cell : row)
+    if (const std::string text = text_of(cell); text.find(',') != std::string::npos)
+      throw UsageError(fmt::format("{}: a comma in the cell \"{}\"", name_, text));
   fmt::print("{}\n", line_of(row));
   std::fflush(stdout);
   rows_.push_back(std::move(row));

@@ -8,8 +8,6 @@
 #include "references/drop_at_rest.h"
 #include "support/process.h"
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,9 +15,14 @@
 namespace meniscus::bench {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double height_of(const Drop& drop) {
+  double top = 0;
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
+    if (drop.connectivity().degree(v) > 0) top = std::max(top, drop.positions()(2, v));
+  return top;
+}
 
 double contact_radius_of(const Drop& drop) { return std::sqrt(wetted_area(drop) / pi); }
 
@@ -54,42 +57,9 @@ Drop start_of(const RestCase& rest) {
 
 }  // namespace
 
-double height_of(const Drop& drop) {
-  double top = 0;
-  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
-    if (drop.connectivity().degree(v) > 0) top = std::max(top, drop.positions()(2, v));
-  return top;
-}
-
-double profile_angle(const Drop& drop) {
-  std::vector<std::uint32_t> low;
-  Vector3d middle = Vector3d::Zero();
-  int line = 0;
-  const double limit = height_of(drop) / 3;
-  for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
-    if (drop.connectivity().degree(v) == 0 || drop.contact()[v] == Contact::wetted) continue;
-    if (drop.positions()(2, v) < limit) low.push_back(v);
-    if (drop.contact()[v] != Contact::line) continue;
-    middle += drop.positions().col(v);
-    ++line;
-  }
-  if (line == 0 || low.size() < 24) return nan;
-  middle /= line;
-  Eigen::MatrixX4d powers(low.size(), 4);
-  Eigen::VectorXd r(low.size());
-  for (std::size_t i = 0; i < low.size(); ++i) {
-    const Vector3d x = drop.positions().col(low[i]);
-    const double z = x.z() / limit;
-    powers.row(static_cast<Eigen::Index>(i)) << 1, z, z * z, z * z * z;
-    r[static_cast<Eigen::Index>(i)] = std::hypot(x.x() - middle.x(), x.y() - middle.y());
-  }
-  const double slope = powers.colPivHouseholderQr().solve(r)[1] / limit;
-  return std::atan2(1, -slope);
-}
-
 RestRun run_to_rest(const RestCase& rest) {
   RestRun run;
-  run.height_error = run.radius_error = run.angle = nan;
+  run.height_error = run.radius_error = nan;
   try {
     std::vector<Drop> drops;
     drops.push_back(start_of(rest));
@@ -119,7 +89,6 @@ RestRun run_to_rest(const RestCase& rest) {
         references::drop_at_rest(volume, rest.angle, scene.gravity.norm(), scene.liquid, references::Hold::sessile);
     run.height_error = height_of(drop) / exact.height - 1;
     run.radius_error = contact_radius_of(drop) / exact.contact_radius - 1;
-    run.angle = profile_angle(drop);
     run.triangles = static_cast<double>(drop.mesh().number_of_faces());
   } catch (const Error&) {
     run.rested = false;

@@ -20,7 +20,6 @@ struct RestCase {
 /// What came of it, beside Young-Laplace for the volume that the drop keeps.
 struct RestRun {
   double height_error = 0, radius_error = 0;  ///< relative; the radius is that of the circle of the wetted area
-  double angle = 0;                           ///< radians, by profile_angle
   double triangles = 0;
   double seconds = 0;      ///< simulated until height and radius had changed by less than 1e-4 over 0.05 s, twice
   double cpu_seconds = 0;  ///< until then
@@ -29,12 +28,5 @@ struct RestRun {
 
 /// A run that throws or loses the drop gives NaN.
 RestRun run_to_rest(const RestCase& rest);
-
-/// Of the highest vertex above the plane z = 0 (cm).
-double height_of(const Drop& drop);
-
-/// The contact angle (radians) of a drop of revolution on z = 0: dr/dz = -cot(theta) there, of the cubic r(z) nearest
-/// to the free and line vertices of the lowest third, about the middle of the line. NaN with too few of them.
-double profile_angle(const Drop& drop);
 
 }  // namespace meniscus::bench

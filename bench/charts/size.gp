@@ -8,6 +8,8 @@ set multiplot layout 1,2 title "Processor time of a step on one thread, in the a
 slope(l) = system(sprintf("awk -F, '$1==\"%s\" {printf \"%%.2f\", $7; exit}' %s/size.csv", l, data))
 set title 'one drop'
 set xlabel 'triangles'
+set xrange [600:400000]
+set yrange [5e-5:2]
 set ylabel 'seconds a step'
 set format x '%g'
 set format y '10^{%L}'
@@ -16,6 +18,8 @@ set key top left
 plot for [l in level_names] rows('size', sprintf('$1=="%s" && $2=="one drop"', l)) using 4:5 with linespoints lc rgb level_colour(l) lw 2 pt 7 ps 0.7 title (any('size', sprintf('$1=="%s"', l)) ? l.': triangles^{'.slope(l).'}' : '')
 set title '50K triangles in all'
 set xlabel 'drops'
+set xrange [0.7:1500]
+set yrange [*:*]
 set xtics ('1' 1, '10' 10, '100' 100, '1,000' 1000)
 set ylabel 'ns a triangle and step'
 unset logscale y

@@ -54,7 +54,8 @@ struct Growth {
   double rate = nan, cpu_seconds = 0;
 };
 
-/// Until the wave is three times as high, or Rayleigh's would be twenty times.
+/// Until the wave is three times as high, or Rayleigh's would be twenty times. NaN if it does not grow so far, or not
+/// as cosh(rate t): if the rate at 1.5 times is another by more than 30 %, something else grows there.
 Growth measure(const NamedLevel& level, int waves, double edge, VolumeCorrectionMethod correction) {
   StepOptions options = inviscid_water(level.level);
   options.volume_correction = correction;
@@ -65,6 +66,7 @@ Growth measure(const NamedLevel& level, int waves, double edge, VolumeCorrection
   try {
     Drop drop = wavy_ring(waves, edge);
     const double start = amplitude(drop, waves), begin = cpu_seconds();
+    double early = nan;
     Remesher remesher;
     StepReport report;
     for (int n = 1; n * dt * exact < std::acosh(20.0); ++n) {
@@ -72,8 +74,11 @@ Growth measure(const NamedLevel& level, int waves, double edge, VolumeCorrection
       if (pieces.size() != 1) return {};
       drop = std::move(pieces.front());
       const double ratio = amplitude(drop, waves) / start;
+      if (ratio < 1.5) continue;
+      const double rate = std::acosh(ratio) / (n * dt) * unit;
+      if (std::isnan(early)) early = rate;
       if (ratio < 3) continue;
-      growth.rate = std::acosh(ratio) / (n * dt) * unit;
+      if (std::abs(early / rate - 1) < 0.3) growth.rate = rate;
       break;
     }
     growth.cpu_seconds = cpu_seconds() - begin;

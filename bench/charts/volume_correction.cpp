@@ -28,8 +28,9 @@ ChartTable volume_correction_chart(bool quick) {
         StepOptions options = inviscid_water(level.level);
         options.volume_correction = correction.method;
         const ModeRun run = run_mode(mode, quick ? 8 : 16, 1.0 / 4000, quick ? 1 : 2.5, options);
-        table.add({std::string(level.name), std::string(correction.name), double(mode), run.kept_per_period,
-                   run.frequency_error, run.worst_volume_error, run.cpu_per_period});
+        const char* const name = level.level == Level::pressure ? "own" : correction.name;
+        table.add({std::string(level.name), std::string(name), double(mode), run.kept_per_period, run.frequency_error,
+                   run.worst_volume_error, run.cpu_per_period});
       }
   return table;
 }

@@ -63,6 +63,8 @@ ModeRun run_mode(int mode, int frequency, double dt, double periods, const StepO
       drop = std::move(pieces.front());
       const double now = mode_amplitude(drop, mode);
       run.worst_volume_error = std::max(run.worst_volume_error, std::abs(drop.volume() / volume - 1));
+      if (run.worst_volume_error > 0.5)  // the drop is gone: what swings is no mode of it
+        return {nan, nan, cpu * period / (n * dt), run.worst_volume_error};
       if (before * now < 0) {
         last = (n - 1 + before / (before - now)) * dt;
         if (swings.empty()) first = last;
@@ -74,11 +76,6 @@ ModeRun run_mode(int mode, int frequency, double dt, double periods, const StepO
     }
   } catch (const Error&) {
     return {nan, nan, nan, nan};
-  }
-  if (run.worst_volume_error > 0.5) {  // the drop is gone: what swings is no mode of it
-    run.frequency_error = run.kept_per_period = nan;
-    run.cpu_per_period = cpu * period / (steps * dt);
-    return run;
   }
   const auto crossings = static_cast<double>(swings.size());
   run.frequency_error = crossings > 1 ? pi * (crossings - 1) / (last - first) / exact - 1 : nan;

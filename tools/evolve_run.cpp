@@ -54,16 +54,19 @@ class Evolution {
         statistics_(simulation_) {
     simulation_.set_clock(&seconds_now);
     if (plan_.verify) simulation_.set_verify(Verify::everything);
-    safe_time_step_ = safe_time_step(make_step_options(plan_.scene), simulation_.drops());
+    safe_time_step_ = safe_time_step(make_step_options(plan_.scene), simulation_.drops(), simulation_.solids());
   }
 
   /// Says before the first step if the time step is outside of the region that was mapped as safe.
   void say_whether_safe() const {
     if (plan_.scene.time_step <= safe_time_step_) return;
     console_.say(
-        fmt::format("warning: a time_step of {:.3g} s is outside of the region where this level holds on these "
-                    "drops; {:.3g} s is inside (docs/ACCURACY.md)",
-                    plan_.scene.time_step, safe_time_step_));
+        safe_time_step_ > 0
+            ? fmt::format("warning: a time_step of {:.3g} s is outside of the region where this level held; "
+                          "{:.3g} s is inside (docs/ACCURACY.md)",
+                          plan_.scene.time_step, safe_time_step_)
+            : "warning: at the level \"paper\" drops that fall on solids fold at any time_step; \"calibrated\" "
+              "and \"pressure\" hold (docs/ACCURACY.md)");
   }
 
   /// What --dry-run says, and -v.

@@ -16,7 +16,7 @@ set xrange [0.5:9.5]
 set yrange [0.5:n+0.5]
 set xtics ('1/15' 1, '1/30' 2, '1/60' 3, '1/120' 4, '1/240' 5, '1/480' 6, '1/960' 7, '1/1920' 8, '1/4800' 9) rotate by 45 right scale 0
 unset ytics
-set multiplot layout 2,3 title "Where methods fail: spheroids of R = 0.2 cm, 3 tensions × 3 edge lengths (levels: 2) a cell; green: all survived, red: none. First failure: a area grew, e energy grew, f faces turned over, N not finite, s solver, u unsound, v volume lost, x gave up\n{/*0.8 ".stamp('stability').'}' font ',13' \
+set multiplot layout 2,3 title "Where methods fail: spheroids of R = 0.2 cm, 3 tensions × 3 edge lengths (levels in air 2, on a plane 1) a cell; green: all survived, red: none. First failure: a area grew, e energy grew, f faces turned over, N not finite, s solver, u unsound, v volume lost, x gave up\n{/*0.8 ".stamp('stability').'}' font ',13' \
   margins 0.12,0.99,0.08,0.9 spacing 0.015,0.12
 do for [k = 1:6] {
   which = word('good jittered obtuse slivers needle 1:1000', k)

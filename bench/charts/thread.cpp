@@ -50,12 +50,18 @@ double amplitude(const Drop& drop, int waves) {
   return projection / norm / radius;
 }
 
+double area_of(const Drop& drop) {
+  SurfaceGeometry geometry;
+  geometry.compute(drop.positions(), drop.connectivity());
+  return geometry.area();
+}
+
 struct Growth {
   double rate = nan, cpu_seconds = 0;
 };
 
 /// Until the wave is three times as high, or Rayleigh's would be twenty times. NaN if it does not grow so far, or not
-/// as cosh(rate t): if the rate at 1.5 times is another by more than 30 %, something else grows there.
+/// as cosh(rate t), or the area does, which a wave of this kind shrinks: then something else grows there.
 Growth measure(const NamedLevel& level, int waves, double edge, VolumeCorrectionMethod correction) {
   StepOptions options = inviscid_water(level.level);
   options.volume_correction = correction;
@@ -65,7 +71,7 @@ Growth measure(const NamedLevel& level, int waves, double edge, VolumeCorrection
   Growth growth;
   try {
     Drop drop = wavy_ring(waves, edge);
-    const double start = amplitude(drop, waves), begin = cpu_seconds();
+    const double start = amplitude(drop, waves), area = area_of(drop), begin = cpu_seconds();
     double early = nan;
     Remesher remesher;
     StepReport report;
@@ -78,7 +84,7 @@ Growth measure(const NamedLevel& level, int waves, double edge, VolumeCorrection
       const double rate = std::acosh(ratio) / (n * dt) * unit;
       if (std::isnan(early)) early = rate;
       if (ratio < 3) continue;
-      if (std::abs(early / rate - 1) < 0.3) growth.rate = rate;
+      if (ratio < 4 && std::abs(early / rate - 1) < 0.3 && area_of(drop) < area) growth.rate = rate;
       break;
     }
     growth.cpu_seconds = cpu_seconds() - begin;
@@ -91,8 +97,7 @@ Growth measure(const NamedLevel& level, int waves, double edge, VolumeCorrection
 
 ChartTable thread_chart(bool quick) {
   ChartTable table("thread",
-                   "Growth of waves on a thread in units of sqrt(sigma/(rho "
-                   "r^3)), beside Rayleigh's inviscid rate",
+                   "Growth of waves on a thread in units of sqrt(sigma/(rho r^3)), beside Rayleigh's inviscid rate",
                    {"level", "kr", "rate", "exact", "error", "cpu_seconds"});
   const struct {
     const char* name;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "test_meshes.h"
 
+#include "meniscus/core/error.h"
+#include "meniscus/geometry/inspect.h"
 #include "meniscus/geometry/shapes.h"
 
 #include <Eigen/Geometry>
@@ -62,7 +64,7 @@ Mesh test_spheroid(Quality quality, double radius, double edge_length, unsigned 
   Columns x = positions(mesh);
   Numbers numbers(seed);
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
-    if (quality == Quality::jittered) x.col(i) += 0.35 * edge_length * numbers.vector();
+    if (quality == Quality::jittered) x.col(i) += 0.15 * edge_length * numbers.vector();
     if (quality == Quality::obtuse) x.col(i) = Eigen::AngleAxisd(1.5 * x(2, i) / radius, Vector3d::UnitZ()) * x.col(i);
     x.col(i) = axes.cwiseProduct(x.col(i).normalized());
   }
@@ -70,6 +72,8 @@ Mesh test_spheroid(Quality quality, double radius, double edge_length, unsigned 
   if (quality == Quality::needle) shorten_edges(mesh, 30, 1.0 / 50);
   if (quality == Quality::aspect) shorten_edges(mesh, 30, 1.0 / 1000);
   for (Eigen::Index i = 0; i < x.cols(); ++i) x.col(i) /= x.col(i).cwiseQuotient(axes).norm();
+  if (const Inspection inspection = inspect(to_mesh_data(mesh)); !inspection.sound)
+    throw GeometryError("a mesh to start from is not sound: " + inspection.defects.front().message);
   return mesh;
 }
 

@@ -11,7 +11,7 @@ namespace meniscus::bench {
 /// How good the triangles are.
 enum class Quality {
   good,      ///< an icosphere, stretched
-  jittered,  ///< each vertex moved along the surface by up to 0.35 edges
+  jittered,  ///< each vertex moved along the surface by up to a quarter of an edge
   obtuse,    ///< sheared: twisted about the axis, angles up to 150 degrees
   slivers,   ///< a vertex of one face in twenty moved next to the middle of the edge opposite
   needle,    ///< one edge in thirty shortened to a fiftieth
@@ -21,6 +21,7 @@ inline constexpr std::array<const char*, 6> quality_names{"good", "jittered", "o
 
 /// A spheroid about the origin, half as wide as it is long (along z), of the volume of a ball of `radius`, vertices
 /// on the exact surface, edges near edge_length (cm). The same for the same seed on every machine.
+/// Throws GeometryError if the mesh is not sound.
 Mesh test_spheroid(Quality quality, double radius, double edge_length, unsigned seed);
 
 }  // namespace meniscus::bench

@@ -18,6 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double most_flipped = 1e-3, most_growth_in_flow = 1e-6, most_growth = 1.5, most_volume_error = 0.05;
+constexpr double least_time = 0.05;  // s, of a level
 
 std::vector<Vector3d> area_vectors(const Drop& drop) {
   const ConstColumns x = drop.positions();
@@ -180,8 +181,10 @@ TrialResult try_level(Level level, bool on_plane, const TrialCase& trial) {
   TrialResult result;
   Remesher remesher;
   StepReport report;
+  // Long enough for a drop to hit the plane and spread, whatever the step.
+  const int steps = std::max(trial.steps, static_cast<int>(std::lround(least_time / trial.time_step)));
   try {
-    for (; result.steps < trial.steps; ++result.steps) {
+    for (; result.steps < steps; ++result.steps) {
       std::vector<Drop> next;
       for (Drop& drop : drops)
         for (Drop& piece : step_drop(std::move(drop), solids, (result.steps + 1) * trial.time_step, trial.time_step,

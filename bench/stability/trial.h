@@ -53,7 +53,8 @@ inline constexpr std::array<const char*, 4> operator_names{"viscosity", "global 
                                                            "local (Eqs 9-11)"};
 TrialResult try_operator(Operator which, const TrialCase& trial);
 
-/// Whole steps of a level, remeshing on: a spheroid in the air, or one that hits a plane of 60 degrees at 30 cm/s.
+/// Whole steps of a level, at least 0.05 s, remeshing on: a spheroid in the air, or one that hits a plane of 60 degrees
+/// at 30 cm/s.
 TrialResult try_level(Level level, bool on_plane, const TrialCase& trial);
 
 }  // namespace meniscus::bench

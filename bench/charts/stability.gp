@@ -16,13 +16,13 @@ set xrange [0.5:9.5]
 set yrange [0.5:n+0.5]
 set xtics ('1/15' 1, '1/30' 2, '1/60' 3, '1/120' 4, '1/240' 5, '1/480' 6, '1/960' 7, '1/1920' 8, '1/4800' 9) rotate by 45 right scale 0
 unset ytics
-set multiplot layout 2,3 title "Where methods fail: spheroids of R = 0.2 cm, 3 tensions × 3 edge lengths (levels in air 2, on a plane 1) a cell; green: all survived, red: none. First failure: a area grew, e energy grew, f faces turned over, N not finite, s solver, u unsound, v volume lost, x gave up\n{/*0.8 ".stamp('stability').'}' font ',13' \
-  margins 0.12,0.99,0.08,0.9 spacing 0.015,0.12
+set multiplot layout 2,3 title "Where methods fail: spheroids of R = 0.2 cm, on planes at 30 cm/s; a cell is 3 tensions × 3 edge lengths (levels in air 2, on a plane 1); green: all survived, red: none\n{/*0.9 first failure: a area grew, e energy grew, f faces turned over, N not finite, s solver, u unsound, v volume lost, x gave up with an error}\n{/*0.8 ".stamp('stability').'}' font ',13' \
+  margins 0.12,0.99,0.08,0.87 spacing 0.015,0.13
 do for [k = 1:6] {
   which = word('good jittered obtuse slivers needle 1:1000', k)
   set title which
   if (k == 1 || k == 4) { set ytics scale 0; do for [m = 1:n] { set ytics add (method(m) m) } } else { unset ytics }
   set xlabel (k > 3 ? 'time step, s' : '')
-  plot quality(which) using 1:2:3 with image, '' using 1:2:(stringcolumn(4)) with labels font ',10' tc rgb '#333333'
+  plot quality(which) using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):3 with boxxyerror fs solid noborder lc palette, '' using 1:2:(stringcolumn(4)) with labels font ',10' tc rgb '#333333'
 }
 unset multiplot

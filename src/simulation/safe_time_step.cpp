@@ -12,8 +12,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What docs/charts/stability.csv shows to be safe: gamma dt/R^2 at Level::paper in the air, half of the least that
-/// failed; dt/sqrt(rho R^3/sigma) at the others, the largest that is in it.
+/// What docs/charts/stability.csv shows to be safe: gamma dt/R^2 at Level::paper in the air, a fifth of the largest up
+/// to which all held; dt/sqrt(rho R^3/sigma) at the others, the largest that is in it.
 constexpr double longest_flow = 0.04, longest_capillary_step = 20;
 
 }  // namespace

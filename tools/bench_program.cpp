@@ -48,9 +48,9 @@ void become_bench(const std::string& name, const std::vector<std::string>& argum
                     name));
   if (found == programs.end()) {
     const std::string nearest = nearest_name(name, bench_names());
-    throw UsageError(fmt::format("bench {}: there is no such benchmark{}; there are {}", name,
-                                 nearest.empty() ? "" : fmt::format(", did you mean {}?", nearest),
-                                 fmt::join(bench_names(), ", ")));
+    throw UsageError(fmt::format("bench {}: there is no such benchmark{}{} {}", name,
+                                 nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest),
+                                 nearest.empty() ? "; there are" : " There are", fmt::join(bench_names(), ", ")));
   }
   std::vector<char*> words{const_cast<char*>(found->second.c_str())};
   for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));

@@ -19,6 +19,8 @@ namespace {
 using namespace meniscus;
 using namespace meniscus::bench;
 
+constexpr const char* usage = "bench_charts [--quick] [--only NAME] [--draw] [--out DIRECTORY]";
+
 const struct {
   const char* name;
   ChartTable (*measure)(bool quick);
@@ -49,7 +51,7 @@ Options parse(int argc, char** argv) {
     else if (word == "--out" && k + 1 < argc)
       options.out = argv[++k];
     else
-      throw UsageError("bench_charts [--quick] [--only NAME] [--draw] [--out DIRECTORY]");
+      throw UsageError(usage);
   }
   return options;
 }
@@ -73,6 +75,10 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 2 && std::string(argv[1]) == "--help") {
+    fmt::print("{}\n", usage);
+    return 0;
+  }
   try {
     return run(parse(argc, argv));
   } catch (const UsageError& error) {

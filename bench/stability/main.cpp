@@ -16,12 +16,16 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <functional>
 
 namespace {
 
 using namespace meniscus;
 using namespace meniscus::bench;
+
+constexpr const char* usage =
+    "bench_stability [--quick] [--only METHOD] [--out DIRECTORY] | --stress N [--seed S] [--outside]";
 
 struct Method {
   std::string name;
@@ -46,10 +50,13 @@ std::vector<Method> methods() {
 const double rates[] = {15, 30, 60, 120, 240, 480, 960, 1920, 4800};
 
 ChartTable measure(bool quick, const std::string& only) {
+  const std::vector<Method> all = methods();
+  if (std::none_of(all.begin(), all.end(), [&](const Method& m) { return m.name.find(only) != std::string::npos; }))
+    throw UsageError(fmt::format("there is no method \"{}\"", only));
   ChartTable table("stability", "What fails first: spheroids 2:1 of R = 0.2 cm; 12 steps, of levels at least 0.05 s",
                    {"method", "quality", "edge", "tension", "time_step", "failure", "steps"});
-  for (const Method& method : methods()) {
-    if (!only.empty() && method.name.find(only) == std::string::npos) continue;
+  for (const Method& method : all) {
+    if (method.name.find(only) == std::string::npos) continue;
     for (std::size_t q = 0; q < quality_names.size(); ++q)
       for (const double edge : {0.06, 0.03, 0.015})
         for (const double tension : {7.2, 72.0, 720.0})
@@ -91,8 +98,7 @@ int run(int argc, char** argv) {
     else if (word == "--seed" && k + 1 < argc)
       seed = static_cast<unsigned>(std::stoul(argv[++k]));
     else
-      throw UsageError(
-          "bench_stability [--quick] [--only METHOD] [--out DIRECTORY] | --stress N [--seed S] [--outside]");
+      throw UsageError(usage);
   }
   const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   if (stress > 0) return run_stress(stress, seed, outside);
@@ -107,6 +113,10 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 2 && std::string(argv[1]) == "--help") {
+    fmt::print("{}\n", usage);
+    return 0;
+  }
   try {
     return run(argc, argv);
   } catch (const UsageError& error) {

@@ -20,7 +20,7 @@ TEST_F(Bench, ListsWhatThereIs) {
 TEST_F(Bench, AnswersAMistypedNameWithTheNearestOne) {
   const Outcome bench = tool("bench chart");
   EXPECT_EQ(bench.code, 2);
-  EXPECT_TRUE(has(bench.err, is_built() ? "did you mean charts?" : "not built")) << bench.err;
+  EXPECT_TRUE(has(bench.err, is_built() ? "did you mean \"charts\"?" : "not built")) << bench.err;
 }
 
 TEST_F(Bench, HandsOptionsAndExitCodeOn) {

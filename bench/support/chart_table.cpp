@@ -58,7 +58,7 @@ void ChartTable::write(const std::filesystem::path& directory) const {
   csv += fmt::format("{}\n", fmt::join(columns_, ","));
   nlohmann::ordered_json json{{"title", title_}, {"version", version()}, {"machine", machine()},
                               {"date", today()}, {"notes", notes_},      {"columns", columns_}};
-  json["rows"] = nlohmann::ordered_json::array();
+  std::string rows;  // one a line
   for (const auto& row : rows_) {
     csv += line_of(row) + '\n';
     nlohmann::ordered_json cells = nlohmann::ordered_json::array();
@@ -68,11 +68,13 @@ void ChartTable::write(const std::filesystem::path& directory) const {
       else
         cells.push_back(std::get<std::string>(cell));
     }
-    json["rows"].push_back(std::move(cells));
+    rows += (rows.empty() ? "" : ",\n") + cells.dump();
   }
+  std::string head = json.dump();
+  head.pop_back();  // the brace
   std::filesystem::create_directories(directory);
   write_file_atomically(directory / (name_ + ".csv"), csv);
-  write_file_atomically(directory / (name_ + ".json"), json.dump(1) + '\n');
+  write_file_atomically(directory / (name_ + ".json"), head + ",\n\"rows\": [\n" + rows + "\n]}\n");
 }
 
 bool draw(const std::string& name, const std::filesystem::path& directory) {

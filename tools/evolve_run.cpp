@@ -8,8 +8,10 @@
 #include "meniscus/io/write_file_atomically.h"
 #include "meniscus/io/write_mesh.h"
 #include "meniscus/scene/write_scene.h"
+#include "meniscus/simulation/safe_time_step.h"
 #include "run_statistics.h"
 
+#include <cmath>
 #include <csignal>
 
 namespace meniscus::tools {
@@ -52,6 +54,19 @@ class Evolution {
         statistics_(simulation_) {
     simulation_.set_clock(&seconds_now);
     if (plan_.verify) simulation_.set_verify(Verify::everything);
+    safe_time_step_ = safe_time_step(make_step_options(plan_.scene), simulation_.drops(), simulation_.solids());
+  }
+
+  /// Says before the first step if the time step is outside of the region that was mapped as safe.
+  void say_whether_safe() const {
+    if (plan_.scene.time_step <= safe_time_step_) return;
+    console_.say(
+        safe_time_step_ > 0
+            ? fmt::format("warning: a time_step of {:.3g} s is outside of the region where this level held; "
+                          "{:.3g} s is inside (docs/ACCURACY.md)",
+                          plan_.scene.time_step, safe_time_step_)
+            : "warning: at the level \"paper\" drops that fall on solids fold at any time_step; \"calibrated\" "
+              "and \"pressure\" hold (docs/ACCURACY.md)");
   }
 
   /// What --dry-run says, and -v.
@@ -87,6 +102,7 @@ class Evolution {
         {"status", "dry_run"}, {"scene", title()}, {"steps", plan_.steps}, {"frames", num_frames_planned() + 1}};
     report["triangles"] = num_triangles(simulation_);
     report["drops"] = simulation_.drops().size();
+    report["safe_time_step"] = std::isfinite(safe_time_step_) ? Json(safe_time_step_) : Json();
     report["resolved_scene"] = Json::parse(resolved_scene(plan_.scene));
     return report;
   }
@@ -220,6 +236,7 @@ class Evolution {
   Simulation simulation_;
   RunStatistics statistics_;
   int frames_ = 0;
+  double safe_time_step_ = 0;
 };
 
 }  // namespace
@@ -232,6 +249,7 @@ int run_evolution(RunPlan plan, const CommonOptions& common) {
     write_report(evolution.plan_report(), common);
     return done;
   }
+  evolution.say_whether_safe();
   std::signal(SIGINT, catch_signal);
   std::signal(SIGTERM, catch_signal);
   common.console().say_verbose(evolution.describe());

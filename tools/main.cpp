@@ -42,6 +42,7 @@ std::string describe_extras(const CLI::App& app) {
   for (const CLI::App* verb : app.get_subcommands()) {
     const std::string help = fmt::format("meniscus {} --help", verb->get_name());
     const std::vector<std::string> extras = verb->remaining();
+    if (verb->get_prefix_command() && !extras.empty() && extras.front()[0] != '-') continue;  // another program's own
     for (const std::string& word : extras)
       if (word.size() > 1 && word[0] == '-')
         return fmt::format("{}: unknown option \"{}\"{}", verb->get_name(), word,

@@ -49,6 +49,16 @@ double torus_area(double major, double minor) { return 4 * pi * pi * major * min
 
 double torus_volume(double major, double minor) { return 2 * pi * pi * major * minor * minor; }
 
+double two_balls_volume(double radius, double apart) {
+  const double cap = radius - 0.5 * apart;  // the height of half the lens
+  return 2 * (4 * pi / 3 * radius * radius * radius - pi * cap * cap * (radius - cap / 3));
+}
+
+double two_balls_area(double radius, double apart) {
+  const double cap = radius - 0.5 * apart;
+  return 2 * (4 * pi * radius * radius - 2 * pi * radius * cap);
+}
+
 double sphere_radius_under_flow(double radius, double gamma, double time) {
   return std::sqrt(std::max(0.0, radius * radius - 4 * gamma * time));
 }

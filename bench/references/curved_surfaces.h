@@ -20,6 +20,10 @@ double torus_curvature(double major, double minor, const Eigen::Vector3d& point)
 double torus_area(double major, double minor);
 double torus_volume(double major, double minor);
 
+/// The union of two balls of one radius whose centres are `apart` (cm, in [0, 2 radius]): less their lens.
+double two_balls_volume(double radius, double apart);
+double two_balls_area(double radius, double apart);
+
 /// A sphere under x' = -gamma K n after t seconds (gamma in cm^2/s, Eq 4): sqrt(R^2 - 4 gamma t); 0 once it has gone.
 double sphere_radius_under_flow(double radius, double gamma, double time);
 /// The same after n implicit steps of dt, each R/(1 + 2 gamma dt/R^2): what an exact discretisation in space gives.

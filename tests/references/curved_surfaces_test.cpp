@@ -61,6 +61,14 @@ TEST(CurvedSurfaces, CurvatureIsTheFirstVariationOfArea) {
   EXPECT_NEAR(torus_area(1, 0.4) * 0.2, torus_volume(1, 0.4), 1e-12);
 }
 
+TEST(CurvedSurfaces, TwoBallsAreOneOrTwoAtTheEndsAndSlicesBetween) {
+  EXPECT_NEAR(two_balls_volume(0.2, 0), 4 * pi / 3 * 0.008, 1e-15);
+  EXPECT_NEAR(two_balls_area(0.2, 0.4), 8 * pi * 0.04, 1e-14);
+  using boost::math::quadrature::gauss_kronrod;
+  const auto slice = [](double x) { return pi * (0.04 - (x - 0.12) * (x - 0.12)); };
+  EXPECT_NEAR(two_balls_volume(0.2, 0.24), 2 * (gauss_kronrod<double, 31>::integrate(slice, 0.0, 0.32)), 1e-14);
+}
+
 TEST(CurvedSurfaces, ImplicitFlowOfASphereConvergesToTheFlow) {
   const double exact = sphere_radius_under_flow(0.2, 1, 0.005);
   const double coarse = sphere_radius_under_implicit_flow(0.2, 1, 0.005 / 100, 100) - exact;

@@ -80,14 +80,10 @@ TEST_F(CommandLine, NumbersMustBeFiniteAndPositive) {
   }
 }
 
-TEST_F(CommandLine, SchemaIsJsonAndBenchSaysWhereBenchmarksAre) {
+TEST_F(CommandLine, SchemaIsJson) {
   const Outcome schema = tool("schema");
   EXPECT_EQ(schema.code, 0);
   EXPECT_TRUE(json::parse(schema.out).contains("properties"));
-  const Outcome bench = tool("bench");
-  EXPECT_EQ(bench.code, 0);
-  EXPECT_TRUE(has(bench.out, "bench/"));
-  EXPECT_EQ(tool("bench solver").code, 2);
 }
 
 TEST_F(CommandLine, BrokenPipeIsQuiet) {

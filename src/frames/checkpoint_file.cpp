@@ -92,6 +92,7 @@ std::vector<fs::path> find_checkpoints(const fs::path& directory) {
     if (const auto step = step_of(entry->path())) found.emplace_back(*step, entry->path());
   std::sort(found.rbegin(), found.rend());
   std::vector<fs::path> files;
+  files.reserve(found.size());
   for (auto& file : found) files.push_back(std::move(file.second));
   return files;
 }

@@ -36,6 +36,8 @@ async function open() {
   const opening = openingOf(location.hash);
   const blocks = new Blocks(scene.blocks);
   const frames = new Frames(scene, blocks);
+  const first = Math.min(Math.max(Math.round(opening.frame), 0), scene.frames.length - 1);
+  await frames.get(first);  // damage shows before the light is made, which takes seconds without a graphics card
   const box = new THREE.Box3(new THREE.Vector3(...scene.bounds.min), new THREE.Vector3(...scene.bounds.max));
   const center = box.getCenter(new THREE.Vector3()), radius = Math.max(box.getSize(new THREE.Vector3()).length() / 2, 1e-6);
   const normals = scene.solids.filter((solid) => solid.shape === "plane").map((solid) => new THREE.Vector3(...solid.normal).normalize());
@@ -134,7 +136,7 @@ async function open() {
   });
 
   stage.home(opening.view);
-  player.frame = Math.min(Math.max(Math.round(opening.frame), 0), player.last);
+  player.frame = first;
   player.time = scene.frames[player.frame].time;
   player.onState();
   redraw();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/operators/mean_curvature_flow.h"
 
+#include "meniscus/core/chunks.h"
 #include "meniscus/core/error.h"
 #include "meniscus/geometry/flow_matrix.h"
 #include "meniscus/operators/collision_constraint.h"
@@ -34,10 +35,13 @@ SolveReport flow_by_mean_curvature(Drop& drop, const SurfaceGeometry& geometry, 
 
   assemble_flow_matrix(drop.connectivity(), geometry, step, options.clamp_negative_weights, work.matrix);
   curvature_right_hand_side(drop.connectivity(), work.matrix, x, work.rhs.data());
-  if (options.body_pressure.mean != 0 || !options.body_pressure.gradient.isZero(0))
-    for (std::uint32_t i = 0; i < n; ++i)
-      work.rhs[i] += to_lanes(step / 3 * options.body_pressure.at(x.col(i)) * geometry.area_vector(i));
-  for (std::size_t i = 0; i < n; ++i) work.solution[i] = to_lanes(last.col(static_cast<Eigen::Index>(i)));
+  const bool pressed = options.body_pressure.mean != 0 || !options.body_pressure.gradient.isZero(0);
+  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+      if (pressed) work.rhs[i] += to_lanes(step / 3 * options.body_pressure.at(x.col(i)) * geometry.area_vector(i));
+      work.solution[i] = to_lanes(last.col(i));
+    }
+  });
   const SolveReport report =
       work.solver.solve(drop.connectivity(), work.matrix, work.rhs.data(), work.solution.data(),
                         fixed_rows(drop, options.contact), drop.flow_pattern_changed(), options.solver);
@@ -48,12 +52,14 @@ SolveReport flow_by_mean_curvature(Drop& drop, const SurfaceGeometry& geometry, 
                     drop.id(), report.iterations, report.relative_residual));
 
   const double per_second = dt > 0 ? 1 / dt : 0;
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const Eigen::Vector3d move = constrain_to_solid(drop, i, to_eigen(work.solution[i]));
-    last.col(i) = move;
-    x.col(i) += move;
-    v.col(i) += move * per_second;
-  }
+  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+      const Eigen::Vector3d move = constrain_to_solid(drop, i, to_eigen(work.solution[i]));
+      last.col(i) = move;
+      x.col(i) += move;
+      v.col(i) += move * per_second;
+    }
+  });
   return report;
 }
 

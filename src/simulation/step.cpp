@@ -174,7 +174,8 @@ int num_substeps(Drop& drop, const std::vector<Solid>& solids, double time, doub
 std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                           const StepOptions& options, Remesher& remesher, StepReport& report) {
   StageClock clock(options.clock, report);
-  const Eigen::Matrix3Xd before = std::as_const(drop).positions();
+  Eigen::Matrix3Xd before = std::move(drop.workspace().before);  // it goes back at the end, and allocates nothing
+  if (options.merge) before = std::as_const(drop).positions();
   const bool jet = is_jet(drop, solids, time, options);
   const ExternalForcesReport forces =
       apply_external_forces(drop, solids, time, dt, external_forces_options(drop, jet, options));
@@ -217,7 +218,9 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
 
   if (options.volume_correction == VolumeCorrectionMethod::none) report.skip(Stage::volume_correction);
 
-  return remesh_and_split(std::move(drop), before, options, remesher, clock, report);
+  std::vector<Drop> pieces = remesh_and_split(std::move(drop), before, options, remesher, clock, report);
+  if (pieces.size() == 1) pieces.front().workspace().before = std::move(before);
+  return pieces;
 }
 
 }  // namespace

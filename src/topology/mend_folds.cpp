@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "boolean_seam.h"
 #include "face_grid.h"
+#include "meniscus/core/chunks.h"
 #include "meniscus/geometry/rigid_motion.h"
 #include "meniscus/topology/self_union.h"
 #include "merge_parts.h"
@@ -182,18 +183,26 @@ MeshData soup_in(const Drop& drop, const Eigen::AlignedBox3d& region) {
 
 void watch_violent_faces(Drop& drop, const Eigen::Matrix3Xd& before) {
   const ConstColumns x = std::as_const(drop).positions();
-  std::uint8_t* const watch = drop.seam_watch();
-  for (const auto& [a, b, c] : drop.connectivity().triangles()) {
-    if (a == Connectivity::removed) continue;
+  const auto& triangles = drop.connectivity().triangles();
+  const auto is_violent = [&](const Triangle& t) {
+    const auto& [a, b, c] = t;
+    if (a == Connectivity::removed) return false;
     const Eigen::Vector3d p = before.col(b) - before.col(a), q = before.col(c) - before.col(a), r = q - p;
-    const Eigen::Vector3d s = x.col(b) - x.col(a), t = x.col(c) - x.col(a), u = t - s;
+    const Eigen::Vector3d s = x.col(b) - x.col(a), t2 = x.col(c) - x.col(a), u = t2 - s;
     const auto changes_little = [](const Eigen::Vector3d& was, const Eigen::Vector3d& is) {
       return (is - was).squaredNorm() < large_change * large_change * was.squaredNorm();
     };
-    if (changes_little(p, s) && changes_little(q, t) && changes_little(r, u) && p.cross(q).dot(s.cross(t)) > 0)
-      continue;
-    for (const auto v : {a, b, c}) watch[v] = std::max(watch[v], violent_watched_calls);
-  }
+    return !(changes_little(p, s) && changes_little(q, t2) && changes_little(r, u) && p.cross(q).dot(s.cross(t2)) > 0);
+  };
+  const auto count = sum_over_chunks(triangles.size(), std::size_t{0}, [&](std::size_t begin, std::size_t end) {
+    return static_cast<std::size_t>(std::count_if(triangles.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                  triangles.begin() + static_cast<std::ptrdiff_t>(end), is_violent));
+  });
+  if (count == 0) return;
+  std::uint8_t* const watch = drop.seam_watch();
+  for (const Triangle& t : triangles)
+    if (is_violent(t))
+      for (const auto v : t) watch[v] = std::max(watch[v], violent_watched_calls);
 }
 
 bool may_fold(const Drop& drop, const MergeOptions& options) {

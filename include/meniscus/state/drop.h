@@ -38,6 +38,7 @@ struct Workspace {
   std::vector<Eigen::Vector3d> vectors;
   std::vector<double> scalars, more_scalars;
   std::vector<std::uint8_t> fixed;
+  Eigen::Matrix3Xd before;                   ///< positions at the start of a substep
   std::shared_ptr<PressureArrays> pressure;  ///< made at first use
 };
 

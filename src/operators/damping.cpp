@@ -16,6 +16,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// The viscous solve stops here even if more is asked for: viscosity is a damping rate fitted to some per cent.
+constexpr double least_tolerance = 1e-3;
+
 /// A sum that is the largest term.
 struct Largest {
   double value = 0;
@@ -82,8 +85,10 @@ DampingReport viscous_change(Drop& drop, const SurfaceGeometry& geometry, const 
   curvature_right_hand_side(drop.connectivity(), work.matrix, v, work.rhs.data());
   shift(1);
   std::fill(work.solution.begin(), work.solution.end(), Lanes{});
-  report.solve = work.solver.solve(drop.connectivity(), work.matrix, work.rhs.data(), work.solution.data(), nullptr,
-                                   true, options.solver);
+  SolverOptions solver = options.solver;
+  solver.tolerance = std::max(solver.tolerance, least_tolerance);
+  report.solve =
+      work.solver.solve(drop.connectivity(), work.matrix, work.rhs.data(), work.solution.data(), nullptr, true, solver);
   if (!report.solve.converged)
     throw NumericsError(fmt::format("drop {}: the viscous solve did not converge in {} iterations (residual {:.1e})",
                                     drop.id(), report.solve.iterations, report.solve.relative_residual));

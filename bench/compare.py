@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Two revisions side by side on one benchmark:
 
-    bench/compare main HEAD step -- free_20k window --threads 1
-    bench/compare main HEAD operators -- --benchmark_filter=flow
+    bench/compare.py main HEAD step -- free_20k window --threads 1
+    bench/compare.py main HEAD operators -- --benchmark_filter=flow
 
 Builds bench_NAME of both in worktrees under build/compare, then runs them in turn (A B, B A, A B, ...), so that what
 else the machine does meets both alike. Prints medians over the pairs and the median of the ratios B/A pair by pair:

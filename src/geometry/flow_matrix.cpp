@@ -76,4 +76,28 @@ void curvature_right_hand_side(const Connectivity& connectivity, const RingMatri
   });
 }
 
+Eigen::Vector3d missing_translation(const SurfaceGeometry& geometry, const std::vector<Lanes>& rhs,
+                                    const std::vector<Lanes>& solution) {
+  struct Sums {
+    double mass = 0;
+    Lanes missing{};
+    Sums& operator+=(const Sums& other) {
+      mass += other.mass;
+      missing += other.missing;
+      return *this;
+    }
+  };
+  const Sums sums = sum_over_chunks(rhs.size(), Sums{}, [&](std::size_t begin, std::size_t end) {
+    Sums part;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double mass = geometry.lumped_area(static_cast<std::uint32_t>(i));
+      if (!(mass > 0)) continue;
+      part.mass += mass;
+      part.missing += rhs[i] - mass * solution[i];
+    }
+    return part;
+  });
+  return sums.mass > 0 ? Eigen::Vector3d(to_eigen(sums.missing) / sums.mass) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
 }  // namespace meniscus

@@ -46,7 +46,7 @@ Lanes residual(const System& system, Vectors& vectors) {
       const Lanes row =
           row_product(weight + width * i, neighbour + width * i, system.matrix.diagonal[i], x, x[i], degree[i] > 6);
       r[i] = inverse[i] > 0 ? system.rhs[i] - row : Lanes{};
-      part += inverse[i] * (r[i] * r[i]);
+      if (degree[i] <= width) part += inverse[i] * (r[i] * r[i]);
     }
     return part;
   });
@@ -54,7 +54,6 @@ Lanes residual(const System& system, Vectors& vectors) {
     const Connectivity::LongRing& ring = connectivity.long_rings()[k];
     const std::size_t i = ring.vertex;
     if (!(inverse[i] > 0)) continue;
-    norm -= inverse[i] * (r[i] * r[i]);
     r[i] -= long_row(ring, system.matrix.long_weight[k], x);
     norm += inverse[i] * (r[i] * r[i]);
   }

@@ -76,15 +76,13 @@ DampingReport viscous_change(Drop& drop, const SurfaceGeometry& geometry, const 
   const double step = options.viscosity_coefficient * dt;
   report.implicit = explicit_change(drop, geometry, step, rigid.rotation) > 0.5;
   if (!report.implicit) return report;
-  Columns v = drop.velocities();
-  const auto shift = [&](double sign) {
-    for (Eigen::Index i = 0; i < v.cols(); ++i) v.col(i) += sign * rigid.at(drop.positions().col(i));
-  };
   assemble_flow_matrix(drop.connectivity(), geometry, step, true, work.matrix);
-  shift(-1);
-  curvature_right_hand_side(drop.connectivity(), work.matrix, v, work.rhs.data());
-  shift(1);
-  std::fill(work.solution.begin(), work.solution.end(), Lanes{});
+  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      work.rhs[i] = geometry.lumped_area(static_cast<std::uint32_t>(i)) * work.solution[i];
+      work.solution[i] = Lanes{};
+    }
+  });
   SolverOptions solver = options.solver;
   solver.tolerance = std::max(solver.tolerance, least_tolerance);
   report.solve =
@@ -92,6 +90,8 @@ DampingReport viscous_change(Drop& drop, const SurfaceGeometry& geometry, const 
   if (!report.solve.converged)
     throw NumericsError(fmt::format("drop {}: the viscous solve did not converge in {} iterations (residual {:.1e})",
                                     drop.id(), report.solve.iterations, report.solve.relative_residual));
+  const Lanes shift = to_lanes(missing_translation(geometry, work.rhs, work.solution));
+  for (Lanes& change : work.solution) change += shift;
   return report;
 }
 

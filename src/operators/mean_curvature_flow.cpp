@@ -42,19 +42,22 @@ SolveReport flow_by_mean_curvature(Drop& drop, const SurfaceGeometry& geometry, 
       work.solution[i] = to_lanes(last.col(i));
     }
   });
-  const SolveReport report =
-      work.solver.solve(drop.connectivity(), work.matrix, work.rhs.data(), work.solution.data(),
-                        fixed_rows(drop, options.contact), drop.flow_pattern_changed(), options.solver);
+  const std::uint8_t* const fixed = fixed_rows(drop, options.contact);
+  const SolveReport report = work.solver.solve(drop.connectivity(), work.matrix, work.rhs.data(), work.solution.data(),
+                                               fixed, drop.flow_pattern_changed(), options.solver);
   if (!report.converged)
     throw NumericsError(
         fmt::format("drop {}: curvature flow did not converge in {} iterations (residual {:.1e}); use a "
                     "smaller time step or a looser solver tolerance",
                     drop.id(), report.iterations, report.relative_residual));
 
+  const Eigen::Vector3d shift =
+      fixed ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : missing_translation(geometry, work.rhs, work.solution);
   const double per_second = dt > 0 ? 1 / dt : 0;
   for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
     for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
-      const Eigen::Vector3d move = constrain_to_solid(drop, i, to_eigen(work.solution[i]));
+      if (drop.connectivity().degree(i) == 0) continue;
+      const Eigen::Vector3d move = constrain_to_solid(drop, i, to_eigen(work.solution[i]) + shift);
       last.col(i) = move;
       x.col(i) += move;
       v.col(i) += move * per_second;

@@ -93,6 +93,10 @@ DampingOptions damping_options(const StepOptions& step) {
   return options;
 }
 
+/// At Level::calibrated the flow's solver stops here even if the scene asks for more: the motion is then off by less
+/// than 1e-4 of its amplitude (bench_tolerance), far less than the model is.
+constexpr double least_flow_tolerance = 1e-3;
+
 MeanCurvatureFlowOptions flow_options(const StepOptions& step, const BodyPressure& pressure, double tension,
                                       double dt) {
   MeanCurvatureFlowOptions options;
@@ -103,6 +107,7 @@ MeanCurvatureFlowOptions flow_options(const StepOptions& step, const BodyPressur
   } else {
     options.coefficient = tension * dt;
     options.body_pressure = pressure;
+    options.solver.tolerance = std::max(step.solver.tolerance, least_flow_tolerance);
   }
   return options;
 }

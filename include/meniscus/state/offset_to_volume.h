@@ -17,8 +17,8 @@ struct VolumeOffset {
   bool limited = false;     ///< d was cut to its bounds
 };
 
-/// Offsets the surface off solids along the normals of `geometry` by d until the volume, a cubic in d, fits to 1e-12
-/// (Newton, from d = (V_wanted - V)/A); d stays within [least, most] (cm). Global volume correction, Section 4.4 of the
+/// Offsets the surface off solids along the normals of `geometry` by d = (V_wanted - V)/A, by secants, until the
+/// volume fits to 1e-12; d stays within [least, most] (cm). Global volume correction, Section 4.4 of the
 /// paper. Writes positions only. Does nothing where no vertex is off solids.
 VolumeOffset offset_to_volume(Drop& drop, const SurfaceGeometry& geometry, double volume, double least, double most);
 

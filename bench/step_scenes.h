@@ -45,7 +45,7 @@ inline Setting free_flight(int frequency, Level level) {
 inline Setting window(bool sleep) {
   Setting setting;
   Scene& scene = setting.scene = default_scene();
-  scene.time_step = 1.0 / 480;
+  scene.time_step = 1.0 / 960;
   scene.sleep = sleep;
   scene.mesh.edge_min = 0.02;
   scene.mesh.edge_max = 0.06;
@@ -58,7 +58,7 @@ inline Setting window(bool sleep) {
   DropSpec drops;
   drops.shape = DropShape::scatter;
   drops.on = "pane";
-  drops.count = 220;
+  drops.count = 170;
   drops.seed = 1;
   drops.size = {9, 0, 9};
   drops.radius_min = 0.08;

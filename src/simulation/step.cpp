@@ -94,8 +94,8 @@ DampingOptions damping_options(const StepOptions& step) {
 }
 
 /// At Level::calibrated the flow's solver stops here even if the scene asks for more: the motion is then off by less
-/// than 1e-4 of its amplitude (bench_tolerance), far less than the model is.
-constexpr double least_flow_tolerance = 1e-3;
+/// than 1e-5 of its amplitude (bench_tolerance), far less than the model is.
+constexpr double least_flow_tolerance = 1e-4;
 
 MeanCurvatureFlowOptions flow_options(const StepOptions& step, const BodyPressure& pressure, double tension,
                                       double dt) {

@@ -10,9 +10,11 @@
 #include "meniscus/scene/write_scene.h"
 #include "meniscus/simulation/safe_time_step.h"
 #include "run_statistics.h"
+#include "writing_thread.h"
 
 #include <cmath>
 #include <csignal>
+#include <memory>
 
 namespace meniscus::tools {
 namespace {
@@ -79,16 +81,20 @@ class Evolution {
 
   int run() {
     FrameWriter writer = first_frames();
-    frames_ = writer.num_frames();
+    WritingThread behind;  // from here on the only one to touch the writer
     try {
-      step_all(writer);
-      if (caught_signal != 0) save(writer);
+      step_all(writer, behind);
+      if (caught_signal != 0) save(writer, behind);
+      behind.finish();
     } catch (const Error& error) {
       progress_.clear();
+      behind.stop();  // frames from before a failure of the simulation are still written
+      frames_ = writer.num_frames();
       finish_failed(error);
       throw;
     }
     progress_.clear();
+    frames_ = writer.num_frames();
     writer.finish();
     const bool whole = caught_signal == 0;
     finish(whole ? "ok" : "interrupted", "");
@@ -137,28 +143,46 @@ class Evolution {
     std::filesystem::remove(plan_.output / "run.json", ignored);  // an older run's
     FrameWriter writer(plan_.output, plan_.frame_options);
     writer.write(0, simulation_.time(), simulation_.drops());
-    if (plan_.checkpoint_every > 0 && plan_.steps > 0) save(writer);
+    if (plan_.checkpoint_every > 0 && plan_.steps > 0) write_state(writer, num_steps(), state());
     return writer;
   }
 
-  nlohmann::json state(const FrameWriter& writer) const {
+  std::int64_t num_steps() const { return static_cast<std::int64_t>(simulation_.num_steps()); }
+
+  /// What a checkpoint holds, but for the frames.
+  nlohmann::json state() const {
     CheckpointWriter archive;
     archive("simulation", simulation_);
     archive("statistics", statistics_);
-    archive("frames", writer);
     nlohmann::json state = archive.state();
     state["run"] = describe_run(plan_.scene, plan_.inputs);
     return state;
   }
 
-  void save(const FrameWriter& writer) const {
-    write_checkpoint(plan_.output, static_cast<std::int64_t>(simulation_.num_steps()), state(writer));
+  void write_state(const FrameWriter& writer, std::int64_t step, nlohmann::json state) const {
+    CheckpointWriter frames;
+    frames("frames", writer);
+    state["frames"] = frames.state()["frames"];
+    write_checkpoint(plan_.output, step, state);
+  }
+
+  /// A checkpoint of now, written after the frames before it and telling of them alone.
+  void save(const FrameWriter& writer, WritingThread& behind) const {
+    behind.run([this, &writer, step = num_steps(), now = std::make_shared<nlohmann::json>(state())] {
+      write_state(writer, step, std::move(*now));
+    });
+  }
+
+  void write_frame(FrameWriter& writer, WritingThread& behind, std::int64_t frame) const {
+    behind.run([&writer, frame, time = simulation_.time(), drops = simulation_.drops()] {
+      writer.write(static_cast<int>(frame), time, drops);
+    });
   }
 
   /// One step. With --verify, the state before a step that failed is kept: DIR/violation goes on from there.
-  StepReport step(const FrameWriter& writer) {
+  StepReport step() {
     if (!plan_.verify) return simulation_.step();
-    const nlohmann::json before = state(writer);
+    const nlohmann::json before = state();
     try {
       return simulation_.step();
     } catch (const NumericsError& error) {
@@ -184,17 +208,16 @@ class Evolution {
     write_file_atomically(violation() / "scene.json", resolved_scene(plan_.scene) + '\n');
   }
 
-  void step_all(FrameWriter& writer) {
+  void step_all(FrameWriter& writer, WritingThread& behind) {
     const std::int64_t each = plan_.scene.steps_per_frame;
-    for (auto k = static_cast<std::int64_t>(simulation_.num_steps()) + 1; k <= plan_.steps && caught_signal == 0; ++k) {
+    for (std::int64_t k = num_steps() + 1; k <= plan_.steps && caught_signal == 0; ++k) {
       const double start = seconds_now();
-      const StepReport report = step(writer);
+      const StepReport report = step();
       statistics_.add_step(simulation_, report, seconds_now() - start);
       if (k % each == 0 || k == plan_.steps) {
         const std::int64_t frame = (k + each - 1) / each;
-        writer.write(static_cast<int>(frame), simulation_.time(), simulation_.drops());
-        ++frames_;
-        if (plan_.checkpoint_every > 0 && frame % plan_.checkpoint_every == 0 && k < plan_.steps) save(writer);
+        write_frame(writer, behind, frame);
+        if (plan_.checkpoint_every > 0 && frame % plan_.checkpoint_every == 0 && k < plan_.steps) save(writer, behind);
       }
       progress_.show(fmt::format("step {}/{}, {:.4f} s, {} drops, {} triangles, {:.3g} million triangle-steps/s", k,
                                  plan_.steps, simulation_.time(), simulation_.drops().size(), report.triangles,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/geometry/flow_matrix.h"
 
+#include "meniscus/core/chunks.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -8,22 +10,12 @@
 namespace meniscus {
 namespace {
 
-/// The weights of the edges of one ring, and their sum. Face k of the ring is (v, u_k, u_{k+1}): its
-/// cotangent at u_{k+1} belongs to edge v u_k, the one at u_k to edge v u_{k+1}.
-/// `half` is s/2, `floor` the least weight allowed.
-double ring_weights(const FaceGeometry* faces, const std::uint32_t* corner, int degree, double half, double floor,
-                    double* weight) {
-  constexpr std::uint8_t next[3] = {1, 2, 0}, previous[3] = {2, 0, 1};
-  const auto cotangents = [&](int k) { return faces[corner[k] / 3].cotangent.data(); };
-  const auto place = [&](int k) { return corner[k] - 3 * (corner[k] / 3); };
-  double carried = cotangents(degree - 1)[next[place(degree - 1)]];
+/// weight_k = s w_k, at least `floor`; returns their sum.
+double scale_weights(const double* half_sum, int degree, double s, double floor, double* weight) {
   double sum = 0;
   for (int k = 0; k < degree; ++k) {
-    const double* const cotangent = cotangents(k);
-    const std::uint32_t c = place(k);
-    weight[k] = std::max(half * (cotangent[previous[c]] + carried), floor);
+    weight[k] = std::max(s * half_sum[k], floor);
     sum += weight[k];
-    carried = cotangent[next[c]];
   }
   return sum;
 }
@@ -33,28 +25,30 @@ double ring_weights(const FaceGeometry* faces, const std::uint32_t* corner, int 
 void assemble_flow_matrix(const Connectivity& connectivity, const SurfaceGeometry& geometry, double s,
                           bool clamp_negative, RingMatrix& matrix) {
   constexpr int width = Connectivity::width;
-  const std::size_t n = connectivity.num_rows();
+  const std::size_t n = connectivity.num_rows(), num_long = connectivity.long_rings().size();
   matrix.diagonal.resize(n);
   matrix.weight.resize(width * n);
-  matrix.long_weight.resize(connectivity.long_rings().size());
-  const FaceGeometry* const faces = geometry.faces().data();
-  const double half = 0.5 * s, floor = clamp_negative ? 0.0 : -std::numeric_limits<double>::infinity();
-  std::size_t num_long = 0;
-  for (std::uint32_t v = 0; v < n; ++v) {
-    double* const row = &matrix.weight[width * std::size_t{v}];
-    const int degree = connectivity.degree(v);
-    double sum = 0;
-    if (degree > width) {
-      const Connectivity::LongRing& ring = connectivity.long_rings()[num_long];
-      std::vector<double>& weight = matrix.long_weight[num_long++];
-      weight.resize(ring.neighbour.size());
-      sum = ring_weights(faces, ring.corner.data(), degree, half, floor, weight.data());
-    } else if (degree > 0) {
-      sum = ring_weights(faces, connectivity.corner_rows() + width * std::size_t{v}, degree, half, floor, row);
-    }
-    std::fill(row + (degree > width ? 0 : degree), row + width, 0.0);
+  matrix.long_weight.resize(num_long);
+  const RingMatrix& half_sums = geometry.edge_weights();
+  const double floor = clamp_negative ? 0.0 : -std::numeric_limits<double>::infinity();
+  const auto set_diagonal = [&](std::uint32_t v, double sum) {
     const double diagonal = geometry.lumped_area(v) + sum;
     matrix.diagonal[v] = diagonal == 0 ? 1.0 : diagonal;
+  };
+  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const int degree = connectivity.degree(static_cast<std::uint32_t>(v));
+      double* const row = &matrix.weight[width * v];
+      const double sum = scale_weights(&half_sums.weight[width * v], degree > width ? 0 : degree, s, floor, row);
+      std::fill(row + (degree > width ? 0 : degree), row + width, 0.0);
+      set_diagonal(static_cast<std::uint32_t>(v), sum);
+    }
+  });
+  for (std::size_t k = 0; k < num_long; ++k) {
+    const std::vector<double>& half_sum = half_sums.long_weight[k];
+    matrix.long_weight[k].resize(half_sum.size());
+    set_diagonal(connectivity.long_rings()[k].vertex, scale_weights(half_sum.data(), static_cast<int>(half_sum.size()),
+                                                                    s, floor, matrix.long_weight[k].data()));
   }
 }
 
@@ -72,14 +66,38 @@ void curvature_right_hand_side(const Connectivity& connectivity, const RingMatri
     for (int k = 0; k < degree; ++k) sum += weight[k] * (point(neighbour[k]) - centre);
     return sum;
   };
-  std::size_t num_long = 0;
-  for (std::uint32_t v = 0; v < n; ++v) {
-    const int degree = connectivity.degree(v);
-    const Ring ring = connectivity.ring(v);
-    const double* const weight =
-        degree > width ? matrix.long_weight[num_long++].data() : &matrix.weight[width * std::size_t{v}];
-    rhs[v] = add(ring.neighbour, weight, degree, point(v));
-  }
+  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+      const Ring ring = connectivity.ring(v);
+      const double* const weight = ring.degree > width ? matrix.long_weight[connectivity.long_ring(v)].data()
+                                                       : &matrix.weight[width * std::size_t{v}];
+      rhs[v] = add(ring.neighbour, weight, ring.degree, point(v));
+    }
+  });
+}
+
+Eigen::Vector3d missing_translation(const SurfaceGeometry& geometry, const std::vector<Lanes>& rhs,
+                                    const std::vector<Lanes>& solution) {
+  struct Sums {
+    double mass = 0;
+    Lanes missing{};
+    Sums& operator+=(const Sums& other) {
+      mass += other.mass;
+      missing += other.missing;
+      return *this;
+    }
+  };
+  const Sums sums = sum_over_chunks(rhs.size(), Sums{}, [&](std::size_t begin, std::size_t end) {
+    Sums part;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double mass = geometry.lumped_area(static_cast<std::uint32_t>(i));
+      if (!(mass > 0)) continue;
+      part.mass += mass;
+      part.missing += rhs[i] - mass * solution[i];
+    }
+    return part;
+  });
+  return sums.mass > 0 ? Eigen::Vector3d(to_eigen(sums.missing) / sums.mass) : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
 }  // namespace meniscus

@@ -3,6 +3,7 @@
 
 #include "complete_cholesky.h"
 #include "incomplete_cholesky.h"
+#include "meniscus/core/chunks.h"
 #include "solve_spd_parts.h"
 
 #include <algorithm>
@@ -31,13 +32,30 @@ namespace {
 
 /// r = b - A x and its squared norm.
 Lanes residual(const System& system, Vectors& vectors) {
-  const std::size_t n = system.connectivity.num_rows();
+  constexpr int width = Connectivity::width;
+  const Connectivity& connectivity = system.connectivity;
+  const std::uint32_t* const neighbour = connectivity.neighbour_rows();
+  const std::uint16_t* const degree = connectivity.degrees();
+  const double* const weight = system.matrix.weight.data();
+  const double* const inverse = vectors.inverse_diagonal.data();
+  const Lanes* const x = system.solution;
   Lanes* const r = vectors.residual.data();
-  multiply(system.connectivity, system.matrix, system.solution, r);
-  Lanes norm{};
-  for (std::size_t i = 0; i < n; ++i) {
-    r[i] = vectors.inverse_diagonal[i] > 0 ? system.rhs[i] - r[i] : Lanes{};
-    norm += vectors.inverse_diagonal[i] * (r[i] * r[i]);
+  Lanes norm = sum_over_chunks(connectivity.num_rows(), Lanes{}, [&](std::size_t begin, std::size_t end) {
+    Lanes part{};
+    for (std::size_t i = begin; i < end; ++i) {
+      const Lanes row =
+          row_product(weight + width * i, neighbour + width * i, system.matrix.diagonal[i], x, x[i], degree[i] > 6);
+      r[i] = inverse[i] > 0 ? system.rhs[i] - row : Lanes{};
+      if (degree[i] <= width) part += inverse[i] * (r[i] * r[i]);
+    }
+    return part;
+  });
+  for (std::size_t k = 0; k < connectivity.long_rings().size(); ++k) {
+    const Connectivity::LongRing& ring = connectivity.long_rings()[k];
+    const std::size_t i = ring.vertex;
+    if (!(inverse[i] > 0)) continue;
+    r[i] -= long_row(ring, system.matrix.long_weight[k], x);
+    norm += inverse[i] * (r[i] * r[i]);
   }
   return norm;
 }
@@ -55,35 +73,50 @@ bool SpdSolver::Workspace::prepare(const System& system) {
   vectors.residual.resize(n);
   vectors.direction.resize(n);
   vectors.product.resize(n);
-  bool sound = true;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double diagonal = system.matrix.diagonal[i];
-    const bool fixed = system.is_fixed(i);
-    sound &= fixed || (diagonal > 0 && std::isfinite(1 / diagonal) && std::isfinite(diagonal));
-    vectors.inverse_diagonal[i] = fixed ? 0.0 : 1 / diagonal;
-  }
-  return sound;
+  const int unsound = sum_over_chunks(n, 0, [&](std::size_t begin, std::size_t end) {
+    int part = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double diagonal = system.matrix.diagonal[i];
+      const bool fixed = system.is_fixed(i);
+      const bool sound = fixed || (diagonal > 0 && std::isfinite(1 / diagonal) && std::isfinite(diagonal));
+      part |= static_cast<int>(!sound);
+      vectors.inverse_diagonal[i] = fixed ? 0.0 : 1 / diagonal;
+    }
+    return part;
+  });
+  return unsound == 0;
 }
 
 /// Clears the fixed rows of the start and computes its residual. Returns |B|^2.
 double SpdSolver::Workspace::start(const System& system, Progress& progress) {
+  struct Sums {
+    Lanes norm{};
+    int moving = 0;  // rows whose start is not zero
+    Sums& operator+=(const Sums& other) {
+      norm += other.norm;
+      moving += other.moving;
+      return *this;
+    }
+  };
   const std::size_t n = system.connectivity.num_rows();
-  Lanes norm{};
-  bool is_zero = true;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Lanes b = system.rhs[i];
-    norm += vectors.inverse_diagonal[i] * (b * b);
-    Lanes& x = system.solution[i];
-    if (system.is_fixed(i)) x = Lanes{};
-    is_zero = is_zero && x[0] == 0 && x[1] == 0 && x[2] == 0;
-  }
-  if (is_zero) {
+  const Sums sums = sum_over_chunks(n, Sums{}, [&](std::size_t begin, std::size_t end) {
+    Sums part;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Lanes b = system.rhs[i];
+      part.norm += vectors.inverse_diagonal[i] * (b * b);
+      Lanes& x = system.solution[i];
+      if (system.is_fixed(i)) x = Lanes{};
+      part.moving += static_cast<int>(x[0] != 0 || x[1] != 0 || x[2] != 0);
+    }
+    return part;
+  });
+  if (sums.moving == 0) {
     for (std::size_t i = 0; i < n; ++i) vectors.residual[i] = vectors.inverse_diagonal[i] > 0 ? system.rhs[i] : Lanes{};
-    progress.residual = norm;
+    progress.residual = sums.norm;
   } else {
     progress.residual = residual(system, vectors);
   }
-  return total(norm);
+  return total(sums.norm);
 }
 
 void SpdSolver::Workspace::iterate_incomplete(const System& system, Progress& progress) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/core/chunks.h"
 #include "solve_spd_parts.h"
 
 namespace meniscus::spd {
@@ -16,14 +17,16 @@ Lanes multiply_and_dot(const System& system, const Lanes* x, Lanes* y) {
   const std::uint16_t* const degree = connectivity.degrees();
   const double* const weight = system.matrix.weight.data();
   const double* const diagonal = system.matrix.diagonal.data();
-  const std::size_t n = connectivity.num_rows();
-  Lanes dot{};
-  for (std::size_t i = 0; i < n; ++i) {
-    const Lanes own = x[i];
-    const Lanes row = row_product(weight + width * i, neighbour + width * i, diagonal[i], x, own, degree[i] > 6);
-    y[i] = row;
-    dot += own * row;
-  }
+  Lanes dot = sum_over_chunks(connectivity.num_rows(), Lanes{}, [&](std::size_t begin, std::size_t end) {
+    Lanes part{};
+    for (std::size_t i = begin; i < end; ++i) {
+      const Lanes own = x[i];
+      const Lanes row = row_product(weight + width * i, neighbour + width * i, diagonal[i], x, own, degree[i] > 6);
+      y[i] = row;
+      part += own * row;
+    }
+    return part;
+  });
   for (std::size_t k = 0; k < connectivity.long_rings().size(); ++k) {
     const Connectivity::LongRing& ring = connectivity.long_rings()[k];
     const Lanes rest = long_row(ring, system.matrix.long_weight[k], x);
@@ -41,7 +44,9 @@ void iterate_jacobi(const System& system, Vectors& vectors, Progress& progress) 
   Lanes* const p = vectors.direction.data();
   Lanes* const q = vectors.product.data();
   Lanes rz = progress.residual;
-  for (std::size_t i = 0; i < n; ++i) p[i] = inverse[i] * r[i];
+  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) p[i] = inverse[i] * r[i];
+  });
   while (!progress.is_converged() && progress.iterations < progress.max_iterations) {
     const Lanes pq = multiply_and_dot(system, p, q);
     const Lanes alpha = ratio(rz, pq);
@@ -49,21 +54,27 @@ void iterate_jacobi(const System& system, Vectors& vectors, Progress& progress) 
       progress.broken = true;
       return;
     }
-    Lanes rz_new{};
-    for (std::size_t i = 0; i < n; ++i) {
-      const Lanes ri = r[i] - alpha * q[i];
-      r[i] = ri;
-      rz_new += inverse[i] * (ri * ri);
-    }
+    const Lanes rz_new = sum_over_chunks(n, Lanes{}, [&](std::size_t begin, std::size_t end) {
+      Lanes part{};
+      for (std::size_t i = begin; i < end; ++i) {
+        const Lanes ri = r[i] - alpha * q[i];
+        r[i] = ri;
+        part += inverse[i] * (ri * ri);
+      }
+      return part;
+    });
     ++progress.iterations;
     progress.residual = rz_new;
-    // The step along p is taken here, where p is read anyway to turn it.
+    // The step along p is taken here, where p is read anyway to turn it; at the last one nothing needs turning.
+    const bool is_last = progress.is_converged();
     const Lanes beta = ratio(rz_new, rz);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Lanes pi = p[i];
-      x[i] += alpha * pi;
-      p[i] = inverse[i] * r[i] + beta * pi;
-    }
+    for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Lanes pi = p[i];
+        x[i] += alpha * pi;
+        if (!is_last) p[i] = inverse[i] * r[i] + beta * pi;
+      }
+    });
     rz = rz_new;
   }
 }

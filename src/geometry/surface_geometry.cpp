@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/geometry/surface_geometry.h"
 
+#include "meniscus/core/chunks.h"
+
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 namespace meniscus {
@@ -38,56 +41,101 @@ FaceGeometry face_geometry(const Eigen::Vector3d& a, const Eigen::Vector3d& b, c
   return face;
 }
 
+struct Sums {
+  double area = 0, volume = 0;
+
+  Sums& operator+=(const Sums& other) {
+    area += other.area;
+    volume += other.volume;
+    return *this;
+  }
+};
+
 }  // namespace
 
-void SurfaceGeometry::compute(const ConstColumns& x, const Connectivity& connectivity) {
+void SurfaceGeometry::compute_faces(const ConstColumns& x, const Connectivity& connectivity) {
   const auto& triangles = connectivity.triangles();
-  const std::size_t n = connectivity.num_rows();
-  faces_.resize(triangles.size());
-  area_vector_.resize(n);
-  normal_.resize(n);
+  const Eigen::Vector3d origin = x.cols() == 0 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(x.col(0));
+  const Sums sums = sum_over_chunks(triangles.size(), Sums{}, [&](std::size_t begin, std::size_t end) {
+    Sums part;
+    for (std::size_t f = begin; f < end; ++f) {
+      const auto& [i, j, k] = triangles[f];
+      if (i == Connectivity::removed) {
+        faces_[f] = {};
+        continue;
+      }
+      const Eigen::Vector3d a = x.col(i);
+      FaceGeometry& face = faces_[f] = face_geometry(a, x.col(j), x.col(k));
+      part.area += face.area[0] + face.area[1] + face.area[2];
+      part.volume += (a - origin).dot(Eigen::Vector3d(face.area_vector[0], face.area_vector[1], face.area_vector[2]));
+    }
+    return part;
+  });
+  area_ = sums.area;
+  volume_ = sums.volume / 3;
+}
+
+void SurfaceGeometry::compute_vertex(const ConstColumns& x, const Connectivity& connectivity, std::uint32_t v) {
+  constexpr std::uint8_t next[3] = {1, 2, 0}, previous[3] = {2, 0, 1};
+  const Ring ring = connectivity.ring(v);
+  double* weight = &edge_weights_.weight[Connectivity::width * std::size_t{v}];
+  std::fill(weight + (ring.degree > Connectivity::width ? 0 : ring.degree), weight + Connectivity::width, 0.0);
+  if (ring.degree > Connectivity::width) weight = edge_weights_.long_weight[connectivity.long_ring(v)].data();
+  const auto face_of = [&](int k) -> const FaceGeometry& { return faces_[ring.corner[k] / 3]; };
+  const auto place_in = [&](int k) { return ring.corner[k] - 3 * (ring.corner[k] / 3); };
+  const Eigen::Vector3d own = x.col(v);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero(), gradient = Eigen::Vector3d::Zero();
+  double area = 0;
+  // Face k is (v, u_k, u_{k+1}): its cotangent at u_{k+1} belongs to edge v u_k, the one at u_k to edge v u_{k+1}.
+  double carried = ring.degree > 0 ? face_of(ring.degree - 1).cotangent[next[place_in(ring.degree - 1)]] : 0;
+  for (int k = 0; k < ring.degree; ++k) {
+    const FaceGeometry& face = face_of(k);
+    const std::uint32_t corner = place_in(k);
+    sum += Eigen::Vector3d(face.area_vector[0], face.area_vector[1], face.area_vector[2]);
+    area += face.area[corner];
+    const double half_sum = 0.5 * (face.cotangent[previous[corner]] + carried);
+    weight[k] = half_sum;
+    carried = face.cotangent[next[corner]];
+    gradient += std::max(half_sum, 0.0) * (own - x.col(ring.neighbour[k]));
+  }
+  area_vector_[v] = sum;
+  area_gradient_[v] = gradient;
+  lumped_area_[v] = area;
+  const double length = sum.norm();
+  normal_[v] = length > 0 ? Eigen::Vector3d(sum / length) : Eigen::Vector3d::Zero();
+}
+
+void SurfaceGeometry::compute(const ConstColumns& x, const Connectivity& connectivity) {
+  const std::size_t n = connectivity.num_rows(), num_long = connectivity.long_rings().size();
+  faces_.resize(connectivity.triangles().size());
+  for (auto* array : {&area_vector_, &normal_, &area_gradient_}) array->resize(n);
   lumped_area_.resize(n);
-  area_ = volume_ = 0;
-  const Eigen::Vector3d origin = n == 0 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(x.col(0));
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    const auto& [i, j, k] = triangles[f];
-    if (i == Connectivity::removed) {
-      faces_[f] = {};
-      continue;
-    }
-    const Eigen::Vector3d a = x.col(i);
-    FaceGeometry& face = faces_[f] = face_geometry(a, x.col(j), x.col(k));
-    area_ += face.area[0] + face.area[1] + face.area[2];
-    volume_ += (a - origin).dot(Eigen::Vector3d(face.area_vector[0], face.area_vector[1], face.area_vector[2]));
-  }
-  volume_ /= 3;
-  for (std::uint32_t v = 0; v < n; ++v) {
-    const Ring ring = connectivity.ring(v);
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    double area = 0;
-    for (int k = 0; k < ring.degree; ++k) {
-      const std::uint32_t f = ring.corner[k] / 3, corner = ring.corner[k] - 3 * f;
-      const FaceGeometry& face = faces_[f];
-      sum += Eigen::Vector3d(face.area_vector[0], face.area_vector[1], face.area_vector[2]);
-      area += face.area[corner];
-    }
-    area_vector_[v] = sum;
-    lumped_area_[v] = area;
-    const double length = sum.norm();
-    normal_[v] = length > 0 ? Eigen::Vector3d(sum / length) : Eigen::Vector3d::Zero();
-  }
+  edge_weights_.weight.resize(Connectivity::width * n);
+  edge_weights_.long_weight.resize(num_long);
+  for (std::size_t k = 0; k < num_long; ++k)
+    edge_weights_.long_weight[k].resize(connectivity.long_rings()[k].neighbour.size());
+  compute_faces(x, connectivity);
+  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) compute_vertex(x, connectivity, static_cast<std::uint32_t>(v));
+  });
 }
 
 double enclosed_volume(const ConstColumns& x, const Connectivity& connectivity) {
   if (x.cols() == 0) return 0;
   const Eigen::Vector3d origin = x.col(0);
-  double volume = 0;
-  for (const auto& [i, j, k] : connectivity.triangles()) {
-    if (i == Connectivity::removed) continue;
-    const Eigen::Vector3d a = x.col(i) - origin, b = x.col(j) - origin, c = x.col(k) - origin;
-    volume += a.dot(b.cross(c));
-  }
-  return volume / 6;
+  const auto& triangles = connectivity.triangles();
+  return sum_over_chunks(triangles.size(), 0.0,
+                         [&](std::size_t begin, std::size_t end) {
+                           double volume = 0;
+                           for (std::size_t f = begin; f < end; ++f) {
+                             const auto& [i, j, k] = triangles[f];
+                             if (i == Connectivity::removed) continue;
+                             const Eigen::Vector3d a = x.col(i) - origin, b = x.col(j) - origin, c = x.col(k) - origin;
+                             volume += a.dot(b.cross(c));
+                           }
+                           return volume;
+                         }) /
+         6;
 }
 
 }  // namespace meniscus

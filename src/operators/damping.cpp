@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/operators/damping.h"
 
+#include "meniscus/core/chunks.h"
 #include "meniscus/core/error.h"
 #include "meniscus/geometry/flow_matrix.h"
 #include "meniscus/operators/collision_constraint.h"
@@ -15,40 +16,82 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The largest L_ii / M_ii (1/cm^2) of a matrix M + s L, times s.
-double stiffest_row(const RingMatrix& matrix, const SurfaceGeometry& geometry) {
-  double stiffest = 0;
-  for (std::size_t i = 0; i < matrix.diagonal.size(); ++i) {
-    const double mass = geometry.lumped_area(static_cast<std::uint32_t>(i));
-    if (mass > 0) stiffest = std::max(stiffest, matrix.diagonal[i] / mass - 1);
+/// The viscous solve stops here even if more is asked for: viscosity is a damping rate fitted to some per cent.
+constexpr double least_tolerance = 1e-3;
+
+/// A sum that is the largest term.
+struct Largest {
+  double value = 0;
+
+  Largest& operator+=(const Largest& other) {
+    value = std::max(value, other.value);
+    return *this;
   }
-  return stiffest;
+};
+
+/// The explicit change eta dt Lap(u), u the velocity without the rigid motion, into workspace.solution: about a ring,
+/// sum w (u_k - u_i) = sum w (v_k - v_i) + rotation x area_gradient. Returns the largest eta dt L_ii / M_ii.
+double explicit_change(Drop& drop, const SurfaceGeometry& geometry, double step, const Vector3d& rotation) {
+  constexpr int width = Connectivity::width;
+  const Connectivity& connectivity = drop.connectivity();
+  const ConstColumns v = std::as_const(drop).velocities();
+  const RingMatrix& weights = geometry.edge_weights();
+  Lanes* const change = drop.workspace().solution.data();
+  const auto stiffness_of = [&](std::uint32_t i) {
+    const Ring ring = connectivity.ring(i);
+    const double mass = geometry.lumped_area(i);
+    change[i] = Lanes{};
+    if (!(mass > 0)) return 0.0;
+    const double* const weight = ring.degree > width ? weights.long_weight[connectivity.long_ring(i)].data()
+                                                     : &weights.weight[width * std::size_t{i}];
+    const Vector3d own = v.col(i);
+    Vector3d sum = rotation.cross(geometry.area_gradient(i));
+    double stiffness = 0;
+    for (int k = 0; k < ring.degree; ++k) {
+      const double w = std::max(weight[k], 0.0);
+      stiffness += w;
+      sum += w * (v.col(ring.neighbour[k]) - own);
+    }
+    change[i] = to_lanes(step / mass * sum);
+    return step * stiffness / mass;
+  };
+  return sum_over_chunks(drop.num_rows(), Largest{},
+                         [&](std::size_t begin, std::size_t end) {
+                           Largest stiffest;
+                           for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
+                             stiffest += Largest{stiffness_of(i)};
+                           return stiffest;
+                         })
+      .value;
 }
 
-/// The change of velocity by viscosity over the step, eta dt Lap(v), into workspace.solution.
-DampingReport viscous_change(Drop& drop, const SurfaceGeometry& geometry, const Columns& v, double dt,
+/// The change of velocity by viscosity over the step, eta dt Lap(u), into workspace.solution.
+DampingReport viscous_change(Drop& drop, const SurfaceGeometry& geometry, const RigidMotion& rigid, double dt,
                              const DampingOptions& options) {
   DampingReport report;
   Workspace& work = drop.workspace();
   const std::size_t n = drop.num_rows();
   work.rhs.resize(n);
   work.solution.resize(n);
-  assemble_flow_matrix(drop.connectivity(), geometry, options.viscosity_coefficient * dt, true, work.matrix);
-  curvature_right_hand_side(drop.connectivity(), work.matrix, v, work.rhs.data());
-  report.implicit = stiffest_row(work.matrix, geometry) > 0.5;
-  if (!report.implicit) {
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const double mass = geometry.lumped_area(i);
-      work.solution[i] = mass > 0 ? work.rhs[i] / mass : Lanes{};
+  const double step = options.viscosity_coefficient * dt;
+  report.implicit = explicit_change(drop, geometry, step, rigid.rotation) > 0.5;
+  if (!report.implicit) return report;
+  assemble_flow_matrix(drop.connectivity(), geometry, step, true, work.matrix);
+  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      work.rhs[i] = geometry.lumped_area(static_cast<std::uint32_t>(i)) * work.solution[i];
+      work.solution[i] = Lanes{};
     }
-    return report;
-  }
-  std::fill(work.solution.begin(), work.solution.end(), Lanes{});
-  report.solve = work.solver.solve(drop.connectivity(), work.matrix, work.rhs.data(), work.solution.data(), nullptr,
-                                   true, options.solver);
+  });
+  SolverOptions solver = options.solver;
+  solver.tolerance = std::max(solver.tolerance, least_tolerance);
+  report.solve =
+      work.solver.solve(drop.connectivity(), work.matrix, work.rhs.data(), work.solution.data(), nullptr, true, solver);
   if (!report.solve.converged)
     throw NumericsError(fmt::format("drop {}: the viscous solve did not converge in {} iterations (residual {:.1e})",
                                     drop.id(), report.solve.iterations, report.solve.relative_residual));
+  const Lanes shift = to_lanes(missing_translation(geometry, work.rhs, work.solution));
+  for (Lanes& change : work.solution) change += shift;
   return report;
 }
 
@@ -80,23 +123,19 @@ DampingReport apply_damping(Drop& drop, const SurfaceGeometry& geometry, double 
   Columns v = drop.velocities();
   const RigidMotion rigid = options.keep_rigid_motion ? free_rigid_motion(drop, geometry) : RigidMotion{};
   const bool viscous = options.viscosity_coefficient * dt > 0;
-  if (viscous) {
-    if (options.keep_rigid_motion)
-      for (Eigen::Index i = 0; i < v.cols(); ++i) v.col(i) -= rigid.at(drop.positions().col(i));
-    report = viscous_change(drop, geometry, v, dt, options);
-    if (options.keep_rigid_motion)
-      for (Eigen::Index i = 0; i < v.cols(); ++i) v.col(i) += rigid.at(drop.positions().col(i));
-  }
-  const double factor = std::max(0.0, 1 - options.damping_rate * dt);
-  const auto n = static_cast<std::uint32_t>(drop.num_rows());
-  for (std::uint32_t i = 0; i < n; ++i) {
-    if (drop.connectivity().degree(i) == 0) continue;
-    const Vector3d base = rigid.at(drop.positions().col(i));
-    const Vector3d u = v.col(i) - base;
-    Vector3d u_new = factor * u;
-    if (viscous) u_new += to_eigen(drop.workspace().solution[i]);
-    v.col(i) += constrain_to_solid(drop, i, u_new - u);
-  }
+  if (viscous) report = viscous_change(drop, geometry, rigid, dt, options);
+  const double taken = std::min(1.0, options.damping_rate * dt);
+  const ConstColumns x = std::as_const(drop).positions();
+  if (viscous || taken > 0)
+    for_each_chunk(drop.num_rows(), [&](std::size_t begin, std::size_t end) {
+      for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+        if (drop.connectivity().degree(i) == 0) continue;
+        Vector3d change = Vector3d::Zero();
+        if (viscous) change = to_eigen(drop.workspace().solution[i]);
+        if (taken > 0) change -= taken * (v.col(i) - rigid.at(x.col(i)));
+        v.col(i) += constrain_to_solid(drop, i, change);
+      }
+    });
   if (options.poor_quality_smoothing > 0)
     report.smoothed = smooth_poor_vertices(drop, v, options.poor_quality_smoothing);
   return report;

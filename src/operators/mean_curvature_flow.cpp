@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/operators/mean_curvature_flow.h"
 
+#include "meniscus/core/chunks.h"
 #include "meniscus/core/error.h"
 #include "meniscus/geometry/flow_matrix.h"
 #include "meniscus/operators/collision_constraint.h"
@@ -34,26 +35,34 @@ SolveReport flow_by_mean_curvature(Drop& drop, const SurfaceGeometry& geometry, 
 
   assemble_flow_matrix(drop.connectivity(), geometry, step, options.clamp_negative_weights, work.matrix);
   curvature_right_hand_side(drop.connectivity(), work.matrix, x, work.rhs.data());
-  if (options.body_pressure.mean != 0 || !options.body_pressure.gradient.isZero(0))
-    for (std::uint32_t i = 0; i < n; ++i)
-      work.rhs[i] += to_lanes(step / 3 * options.body_pressure.at(x.col(i)) * geometry.area_vector(i));
-  for (std::size_t i = 0; i < n; ++i) work.solution[i] = to_lanes(last.col(static_cast<Eigen::Index>(i)));
-  const SolveReport report =
-      work.solver.solve(drop.connectivity(), work.matrix, work.rhs.data(), work.solution.data(),
-                        fixed_rows(drop, options.contact), drop.flow_pattern_changed(), options.solver);
+  const bool pressed = options.body_pressure.mean != 0 || !options.body_pressure.gradient.isZero(0);
+  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+      if (pressed) work.rhs[i] += to_lanes(step / 3 * options.body_pressure.at(x.col(i)) * geometry.area_vector(i));
+      work.solution[i] = to_lanes(last.col(i));
+    }
+  });
+  const std::uint8_t* const fixed = fixed_rows(drop, options.contact);
+  const SolveReport report = work.solver.solve(drop.connectivity(), work.matrix, work.rhs.data(), work.solution.data(),
+                                               fixed, drop.flow_pattern_changed(), options.solver);
   if (!report.converged)
     throw NumericsError(
         fmt::format("drop {}: curvature flow did not converge in {} iterations (residual {:.1e}); use a "
                     "smaller time step or a looser solver tolerance",
                     drop.id(), report.iterations, report.relative_residual));
 
+  const Eigen::Vector3d shift =
+      fixed ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : missing_translation(geometry, work.rhs, work.solution);
   const double per_second = dt > 0 ? 1 / dt : 0;
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const Eigen::Vector3d move = constrain_to_solid(drop, i, to_eigen(work.solution[i]));
-    last.col(i) = move;
-    x.col(i) += move;
-    v.col(i) += move * per_second;
-  }
+  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+      if (drop.connectivity().degree(i) == 0) continue;
+      const Eigen::Vector3d move = constrain_to_solid(drop, i, to_eigen(work.solution[i]) + shift);
+      last.col(i) = move;
+      x.col(i) += move;
+      v.col(i) += move * per_second;
+    }
+  });
   return report;
 }
 

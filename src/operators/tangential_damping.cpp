@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/operators/tangential_damping.h"
 
+#include "meniscus/core/chunks.h"
 #include "meniscus/state/free_rigid_motion.h"
+
+#include <algorithm>
 
 namespace meniscus {
 
@@ -9,34 +12,41 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Gives back the momentum that the removal took from a drop in flight: without it, an uneven mesh drives
-/// itself.
-void restore_rigid_motion(Drop& drop, const SurfaceGeometry& geometry, const RigidMotion& before, double dt) {
+/// Gives back the momentum that the removal took from a drop in flight, which moved as `before` and moves as `after`:
+/// without it, an uneven mesh drives itself.
+void restore_rigid_motion(Drop& drop, const RigidMotion& before, const RigidMotion& after, double dt) {
   Columns x = drop.positions(), v = drop.velocities();
-  const RigidMotion after = fit_rigid_motion(x, v, geometry);
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
-    if (drop.connectivity().degree(i) == 0) continue;
-    const Vector3d p = x.col(i), lost = before.at(p) - after.at(p);
-    v.col(i) += lost;
-    x.col(i) += lost * dt;
-  }
+  for_each_chunk(drop.num_rows(), [&](std::size_t begin, std::size_t end) {
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+      if (drop.connectivity().degree(i) == 0) continue;
+      const Vector3d p = x.col(i), lost = before.at(p) - after.at(p);
+      v.col(i) += lost;
+      x.col(i) += lost * dt;
+    }
+  });
 }
 
 }  // namespace
 
 void remove_tangential_deformation(Drop& drop, const SurfaceGeometry& geometry, double dt) {
+  const Contact* contact = drop.contact();
+  const bool in_flight = std::none_of(contact, contact + drop.num_rows(), is_colliding);
   const RigidMotion rigid = free_rigid_motion(drop, geometry);
   Columns x = drop.positions(), v = drop.velocities();
-  bool in_flight = true;
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
-    if (is_colliding(drop.contact()[i])) in_flight = false;
-    if (drop.connectivity().degree(i) == 0 || is_colliding(drop.contact()[i])) continue;
-    const Vector3d u = v.col(i) - rigid.at(x.col(i)), normal = geometry.normal(i);
-    const Vector3d along = u - u.dot(normal) * normal;
-    v.col(i) -= along;
-    x.col(i) -= along * dt;
-  }
-  if (in_flight) restore_rigid_motion(drop, geometry, rigid, dt);
+  const RigidMotionFit none(fit_origin(x, geometry));
+  const RigidMotionFit after = sum_over_chunks(drop.num_rows(), none, [&](std::size_t begin, std::size_t end) {
+    RigidMotionFit fit = none;
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+      if (drop.connectivity().degree(i) == 0 || is_colliding(contact[i])) continue;
+      const Vector3d u = v.col(i) - rigid.at(x.col(i)), normal = geometry.normal(i);
+      const Vector3d along = u - u.dot(normal) * normal;
+      v.col(i) -= along;
+      x.col(i) -= along * dt;
+      if (in_flight) fit.add(geometry.lumped_area(i), x.col(i), v.col(i));
+    }
+    return fit;
+  });
+  if (in_flight) restore_rigid_motion(drop, rigid, after.motion(), dt);
 }
 
 }  // namespace meniscus

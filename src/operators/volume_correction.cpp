@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/operators/volume_correction.h"
 
+#include "meniscus/core/chunks.h"
 #include "meniscus/core/error.h"
 #include "meniscus/geometry/flow_matrix.h"
 #include "meniscus/geometry/rigid_motion.h"
@@ -85,15 +86,31 @@ void correct_locally(Drop& drop, const SurfaceGeometry& geometry, double dt, con
   }
 }
 
+/// dV/dd, and the flow's own change of the volume, which the limit does not count.
+struct Flow {
+  double area = 0, volume = 0;
+
+  Flow& operator+=(const Flow& other) {
+    area += other.area;
+    volume += other.volume;
+    return *this;
+  }
+};
+
 /// Offsets the surface by d = (V_target - V)/A until the volume fits.
 void correct_globally(Drop& drop, const SurfaceGeometry& geometry, double dt, double limit,
                       VolumeCorrectionReport& report) {
-  double area = 0, flowed = 0;  // dV/dd, and the flow's own change, which the limit does not count
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
-    if (!is_off_solids(drop, i)) continue;
-    area += geometry.area_vector(i).dot(geometry.normal(i)) / 3;
-    flowed += drop.displacements().col(i).dot(geometry.area_vector(i)) / 3;
-  }
+  const Flow flow = sum_over_chunks(drop.num_rows(), Flow{}, [&](std::size_t begin, std::size_t end) {
+    Flow part;
+    const ConstColumns last = drop.displacements();
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+      if (!is_off_solids(drop, i)) continue;
+      part.area += geometry.area_vector(i).dot(geometry.normal(i)) / 3;
+      part.volume += last.col(i).dot(geometry.area_vector(i)) / 3;
+    }
+    return part;
+  });
+  const double area = flow.area, flowed = flow.volume;
   const double target = drop.target_volume(), expected = area > 0 ? -flowed / area : 0;
   const VolumeOffset moved = offset_to_volume(drop, geometry, target, expected - limit, expected + limit);
   report.relative_error_before = moved.error_before / target;
@@ -103,8 +120,10 @@ void correct_globally(Drop& drop, const SurfaceGeometry& geometry, double dt, do
   if (!(area > 0)) return;
   Columns v = drop.velocities();
   const double speed = report.offset / dt;
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-    if (is_off_solids(drop, i)) v.col(i) += speed * geometry.normal(i);
+  for_each_chunk(drop.num_rows(), [&](std::size_t begin, std::size_t end) {
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
+      if (is_off_solids(drop, i)) v.col(i) += speed * geometry.normal(i);
+  });
 }
 
 }  // namespace

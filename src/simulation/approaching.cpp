@@ -4,6 +4,8 @@
 #include "meniscus/simulation/broad_phase.h"
 #include "step_parts.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -63,10 +65,10 @@ std::vector<Cluster> clusters_of_approaching_drops(const std::vector<Drop>& drop
                                                    BroadPhase& broad_phase) {
   std::vector<Motion> motions(drops.size());
   std::vector<Eigen::AlignedBox3d> boxes(drops.size());
-  for (std::size_t d = 0; d < drops.size(); ++d) {
+  tbb::parallel_for(std::size_t{0}, drops.size(), [&](std::size_t d) {
     motions[d] = motion_of(drops[d]);
     boxes[d] = swept_box(drops[d], motions[d], dt);
-  }
+  });
   std::vector<std::array<std::uint32_t, 2>> fast;
   std::vector<int> substeps(drops.size(), 1);
   for (const auto& [i, j] : broad_phase.find_pairs(boxes)) {

@@ -94,8 +94,9 @@ void merge_group(std::vector<Drop>& group, const MergeOptions& options, Remesher
 MergeReport merge_touching_drops(std::vector<Drop>& drops, BroadPhase& broad_phase, const MergeOptions& options,
                                  Remeshers& remeshers) {
   MergeReport report;
+  if (drops.size() < 2) return report;
   std::vector<Eigen::AlignedBox3d> boxes(drops.size());
-  std::transform(drops.begin(), drops.end(), boxes.begin(), bounding_box);
+  tbb::parallel_for(std::size_t{0}, drops.size(), [&](std::size_t d) { boxes[d] = bounding_box(drops[d]); });
   const Pairs meeting = meeting_pairs(drops, boxes, broad_phase.find_pairs(boxes));
   if (meeting.empty()) return report;
 

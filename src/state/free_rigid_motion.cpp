@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/state/free_rigid_motion.h"
 
+#include <algorithm>
+
 namespace meniscus {
 
 using Eigen::Vector3d;
@@ -9,15 +11,15 @@ RigidMotion free_rigid_motion(const Drop& drop, const SurfaceGeometry& geometry)
   const ConstColumns v = drop.velocities();
   RigidMotion held;
   double area = 0;
-  bool in_contact = false;
+  const Contact* contact = drop.contact();
+  if (std::none_of(contact, contact + drop.num_rows(), is_colliding))
+    return fit_rigid_motion(drop.positions(), v, geometry);
   for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
-    in_contact |= is_colliding(drop.contact()[i]);
-    if (drop.contact()[i] != Contact::line) continue;
+    if (contact[i] != Contact::line) continue;
     const Vector3d n = drop.contact_normals().col(i);
     held.translation += geometry.lumped_area(i) * (v.col(i) - v.col(i).dot(n) * n);
     area += geometry.lumped_area(i);
   }
-  if (!in_contact) return fit_rigid_motion(drop.positions(), v, geometry);
   if (area > 0) held.translation /= area;
   return held;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/state/offset_to_volume.h"
 
+#include "meniscus/core/chunks.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,9 +19,12 @@ VolumeOffset offset_to_volume(Drop& drop, const SurfaceGeometry& geometry, doubl
   Columns x = drop.positions();
   const auto n = static_cast<std::uint32_t>(drop.num_rows());
   VolumeOffset report;
-  double area = 0;  // dV/dd
-  for (std::uint32_t i = 0; i < n; ++i)
-    if (is_off_solids(drop, i)) area += geometry.area_vector(i).dot(geometry.normal(i)) / 3;
+  double area = sum_over_chunks(n, 0.0, [&](std::size_t begin, std::size_t end) {  // dV/dd
+    double part = 0;
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
+      if (is_off_solids(drop, i)) part += geometry.area_vector(i).dot(geometry.normal(i)) / 3;
+    return part;
+  });
   report.error = report.error_before = drop.volume() - volume;
   if (!(area > 0)) return report;
   for (int round = 0; round < max_rounds && std::abs(report.error) > volume_tolerance * volume && !report.limited;
@@ -29,8 +34,10 @@ VolumeOffset offset_to_volume(Drop& drop, const SurfaceGeometry& geometry, doubl
     report.limited = total != wanted;
     const double d = total - report.offset;
     report.offset = total;
-    for (std::uint32_t i = 0; i < n; ++i)
-      if (is_off_solids(drop, i)) x.col(i) += d * geometry.normal(i);
+    for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+      for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
+        if (is_off_solids(drop, i)) x.col(i) += d * geometry.normal(i);
+    });
     const double error_old = report.error;
     report.error = drop.volume() - volume;
     if (report.error != error_old) area = (report.error - error_old) / d;  // the normals are the start's

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/topology/remesh.h"
 
+#include "meniscus/core/chunks.h"
 #include "meniscus/core/error.h"
 #include "remesh_state.h"
 
@@ -124,19 +125,36 @@ void scan(RemeshState& state) {
   const auto x = std::as_const(state.drop).positions();
   const double low2 = state.options.band.edge_min * state.options.band.edge_min;
   const double high2 = least_long_edge2(state.options.band);
+  const auto on_solid = [&](const std::array<std::uint32_t, 3>& t) {
+    return state.has_contact ? is_colliding(contact[t[0]]) + is_colliding(contact[t[1]]) + is_colliding(contact[t[2]])
+                             : 0;
+  };
+  const auto sides_of = [&](const std::array<std::uint32_t, 3>& t) {
+    return Sides(x.col(t[0]), x.col(t[1]), x.col(t[2]));
+  };
+  // All faces are looked at on all threads; the few that need more are inspected in their order.
+  std::vector<std::uint8_t>& marked = state.scratch.marked_faces;
+  marked.resize(triangles.size());
+  const auto num_sharp = sum_over_chunks(triangles.size(), std::size_t{0}, [&](std::size_t begin, std::size_t end) {
+    std::size_t sharp = 0;
+    for (std::size_t f = begin; f < end; ++f) {
+      marked[f] = 0;
+      const auto& t = triangles[f];
+      if (t[0] == Connectivity::removed) continue;
+      const Sides sides = sides_of(t);
+      sharp += sides.is_sharp();
+      marked[f] =
+          sides.least < low2 || sides.greatest > high2 || sides.is_obtuse() || sides.is_poor() || on_solid(t) >= 2;
+    }
+    return sharp;
+  });
+  state.has_sharp_angle = num_sharp > 0;
   for (std::uint32_t f = 0; f < triangles.size(); ++f) {
-    const auto& t = triangles[f];
-    if (t[0] == Connectivity::removed) continue;
-    const Sides sides(x.col(t[0]), x.col(t[1]), x.col(t[2]));
-    const bool is_wet =
-        state.has_contact && is_colliding(contact[t[0]]) && is_colliding(contact[t[1]]) && is_colliding(contact[t[2]]);
-    state.has_sharp_angle |= sides.is_sharp();
-    const int on_solid =
-        state.has_contact ? is_colliding(contact[t[0]]) + is_colliding(contact[t[1]]) + is_colliding(contact[t[2]]) : 0;
-    state.has_films |= on_solid == 2 && !state.has_films && is_film(state, FaceIndex(f));
-    state.has_turned_faces |= is_wet && state.facing_solid(state.mesh.halfedge(FaceIndex(f))) < hardly_facing;
-    if (sides.least < low2 || sides.greatest > high2 || sides.is_obtuse() || sides.is_poor() || is_wet)
-      inspect_face(state, FaceIndex(f), sides, is_wet);
+    if (marked[f] == 0) continue;
+    const bool wet = on_solid(triangles[f]) == 3;
+    state.has_films |= !wet && !state.has_films && on_solid(triangles[f]) == 2 && is_film(state, FaceIndex(f));
+    state.has_turned_faces |= wet && state.facing_solid(state.mesh.halfedge(FaceIndex(f))) < hardly_facing;
+    inspect_face(state, FaceIndex(f), sides_of(triangles[f]), wet);
   }
 }
 

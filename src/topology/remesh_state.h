@@ -44,7 +44,8 @@ struct Remesher::Scratch {
   std::vector<QueuedEdge> splits_now;         ///< the heap of the round
   std::vector<EdgeIndex> flips;               ///< sorted within a round
   std::vector<EdgeIndex> flips_now;
-  std::vector<std::uint8_t> in_flips;  ///< by edge
+  std::vector<std::uint8_t> in_flips;      ///< by edge
+  std::vector<std::uint8_t> marked_faces;  ///< those that scan looks at again
   std::vector<std::pair<EdgeIndex, Refusal>> refused;
   std::vector<VertexIndex> changed;   ///< vertices whose faces changed, with repeats
   std::vector<Eigen::Vector3d> ring;  ///< points of a ring, relative to a centre

@@ -26,4 +26,9 @@ void assemble_flow_matrix(const Connectivity& connectivity, const SurfaceGeometr
 void curvature_right_hand_side(const Connectivity& connectivity, const RingMatrix& matrix,
                                const ConstColumns& positions, Lanes* rhs);
 
+/// What a solve's tolerance left of the motion of the whole: the translation t (cm) for which solution + t gives sum M
+/// (solution + t) = sum rhs, as the exact solution does where no row is fixed (L 1 = 0).
+Eigen::Vector3d missing_translation(const SurfaceGeometry& geometry, const std::vector<Lanes>& rhs,
+                                    const std::vector<Lanes>& solution);
+
 }  // namespace meniscus

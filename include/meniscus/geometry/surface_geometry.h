@@ -3,6 +3,7 @@
 
 #include "meniscus/core/types.h"
 #include "meniscus/geometry/connectivity.h"
+#include "meniscus/geometry/solve_spd.h"
 
 #include <array>
 #include <vector>
@@ -35,12 +36,21 @@ class SurfaceGeometry {
   Eigen::Vector3d normal(std::uint32_t v) const { return normal_[v]; }
   /// The vertex's lumped area (cm^2), mixed Voronoi; zero for a removed vertex.
   double lumped_area(std::uint32_t v) const { return lumped_area_[v]; }
+  /// The half sums of cotangents: edge k of ring v weighs weight[8 v + k] = (cot alpha + cot beta)/2, be it below zero;
+  /// rings longer than 8 as in RingMatrix, the diagonal is not filled.
+  const RingMatrix& edge_weights() const { return edge_weights_; }
+  /// The gradient of the area at vertex v (cm), sum of w_k (x_v - x_k) over its ring, weights below zero as zero.
+  Eigen::Vector3d area_gradient(std::uint32_t v) const { return area_gradient_[v]; }
   double area() const { return area_; }      ///< of the whole surface, cm^2
   double volume() const { return volume_; }  ///< enclosed, cm^3; negative if inside out
 
  private:
+  void compute_faces(const ConstColumns& positions, const Connectivity& connectivity);
+  void compute_vertex(const ConstColumns& positions, const Connectivity& connectivity, std::uint32_t v);
+
   std::vector<FaceGeometry> faces_;
-  std::vector<Eigen::Vector3d> area_vector_, normal_;
+  std::vector<Eigen::Vector3d> area_vector_, normal_, area_gradient_;
+  RingMatrix edge_weights_;
   std::vector<double> lumped_area_;
   double area_ = 0, volume_ = 0;
 };

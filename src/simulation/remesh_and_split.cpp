@@ -77,8 +77,8 @@ StepReport& StepReport::operator+=(const MergeReport& merge) {
 
 std::vector<Drop> remesh_and_split(Drop drop, const Eigen::Matrix3Xd& before, const StepOptions& options,
                                    Remesher& remesher, StageClock& clock, StepReport& report) {
-  if (options.merge) watch_violent_faces(drop, before);
-  if (options.merge && may_fold(drop, merge_options(options))) {
+  if (options.remesh) watch_violent_faces(drop, before);
+  if (options.remesh && may_fold(drop, merge_options(options))) {
     MergeReport merge;
     auto mended = mend_folds(drop, before, merge_options(options), remesher, merge);
     report += merge;

@@ -58,8 +58,8 @@ TEST_P(TwoBalls, BecomeOneSoundDropWithBothLedgers) {
   EXPECT_DOUBLE_EQ(drop.target_volume(), a.target_volume() + b.target_volume());
   const Ledger found = measure_ledger(drop);
   EXPECT_NEAR(found.volume / wanted.volume, 1, 1e-9);
-  EXPECT_LT((found.momentum - wanted.momentum).norm(), 1e-11 * wanted.volume * 3);
-  EXPECT_LT((found.center() - wanted.center()).norm(), 1e-11);
+  EXPECT_LT((found.momentum - wanted.momentum).norm(), 1e-12 * wanted.volume * 3);
+  EXPECT_LT((found.center() - wanted.center()).norm(), 1e-12);
   EXPECT_LT((found.angular_momentum - wanted.angular_momentum).norm(), 1e-10 * wanted.volume * 3);
   EXPECT_GT(shortest_edge(drop), 0.2 * 0.08) << "slivers are left at the seam";
 }

@@ -89,22 +89,24 @@ void mark_depths(Delaunay& delaunay) {
 
 bool triangulate_by_delaunay(const std::vector<Point2>& points, const Loops& loops, Triangles& triangles) {
   Delaunay delaunay;
+  std::vector<std::vector<Delaunay::Vertex_handle>> handles;
   std::size_t corners = 0;
-  try {
-    for (const auto& loop : loops) {
-      std::vector<Delaunay::Vertex_handle> handles;
-      for (const auto k : loop) {
-        handles.push_back(delaunay.insert(points[k]));
-        handles.back()->info() = k;
-      }
-      corners += loop.size();
-      for (std::size_t k = 0; k < loop.size(); ++k)
-        delaunay.insert_constraint(handles[k], handles[(k + 1) % loop.size()]);
+  for (const auto& loop : loops) {
+    handles.emplace_back();
+    for (const auto k : loop) {
+      handles.back().push_back(delaunay.insert(points[k]));
+      handles.back().back()->info() = k;
     }
+    corners += loop.size();
+  }
+  // Two corners at one place, or all on a line: CGAL takes neither as ends of a constraint.
+  if (delaunay.number_of_vertices() != corners || delaunay.dimension() < 2) return false;
+  try {
+    for (const auto& loop : handles)
+      for (std::size_t k = 0; k < loop.size(); ++k) delaunay.insert_constraint(loop[k], loop[(k + 1) % loop.size()]);
   } catch (const Delaunay::Intersection_of_constraints_exception&) {
     return false;
   }
-  if (delaunay.number_of_vertices() != corners) return false;
   std::size_t constraints = 0;
   for (auto e = delaunay.constrained_edges_begin(); e != delaunay.constrained_edges_end(); ++e) ++constraints;
   if (constraints != corners) return false;  // a side passes through a corner

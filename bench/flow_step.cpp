@@ -8,6 +8,7 @@
 #include "meniscus/core/version.h"
 #include "meniscus/geometry/flow_matrix.h"
 #include "meniscus/geometry/shapes.h"
+#include "support/chart_table.h"
 
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <fmt/format.h>
@@ -36,20 +37,6 @@ double cpu_ms() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
-std::string machine() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-  return "unknown";
-}
-
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  char text[16];
-  std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&now));
-  return text;
 }
 
 double mean_edge(const Mesh& mesh) {
@@ -250,7 +237,7 @@ int main(int argc, char** argv) {
   }
   std::string csv =
       "date,machine,version,mesh,triangles,gamma_dt_over_h2,method,pattern,ms,iterations,relative_residual,used\n";
-  const std::string id = fmt::format("{},{},{}", today(), machine(), version());
+  const std::string id = fmt::format("{},{},{}", bench::today(), bench::machine(), version());
   for (const int frequency : quick ? std::vector{8, 16} : std::vector{8, 16, 32, 71})
     for (const bool irregular : {false, true}) {
       if (only != 0 && only != 20 * frequency * frequency) continue;

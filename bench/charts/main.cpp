@@ -8,6 +8,7 @@
 #include "charts.h"
 #include "meniscus/core/error.h"
 #include "support/process.h"
+#include "support/run_bench.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
@@ -75,17 +76,5 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 2 && std::string(argv[1]) == "--help") {
-    fmt::print("{}\n", usage);
-    return 0;
-  }
-  try {
-    return run(parse(argc, argv));
-  } catch (const UsageError& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 5;
-  }
+  return run_bench(argc, argv, usage, [&] { return run(parse(argc, argv)); });
 }

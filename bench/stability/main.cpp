@@ -11,6 +11,7 @@
 #include "support/chart_table.h"
 #include "support/levels.h"
 #include "support/process.h"
+#include "support/run_bench.h"
 #include "trial.h"
 
 #include <fmt/format.h>
@@ -113,17 +114,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 2 && std::string(argv[1]) == "--help") {
-    fmt::print("{}\n", usage);
-    return 0;
-  }
-  try {
-    return run(argc, argv);
-  } catch (const UsageError& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 5;
-  }
+  return run_bench(argc, argv, usage, [&] { return run(argc, argv); });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stress.h"
 
+#include "../../tests/support/random_shapes.h"
 #include "meniscus/core/error.h"
 #include "meniscus/geometry/inspect.h"
 #include "meniscus/simulation/safe_time_step.h"
@@ -13,26 +14,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 
 namespace meniscus::bench {
 namespace {
 
+using random_shapes::Numbers;
 constexpr int num_steps = 8;
 constexpr double most_volume_error = 0.05;
 constexpr double most_weber = 5;  // rho v^2 2 R/sigma of an impact; beyond, levels fail at every time step
 constexpr double shortest_step = 1.0 / 4800, longest_step = 1.0 / 15;  // s
-
-class Numbers {
- public:
-  explicit Numbers(unsigned seed) : generator_(seed) {}
-  double between(double low, double high) { return low + (high - low) * (generator_() / 4294967296.0); }
-  double log_between(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
-  int below(int n) { return static_cast<int>(generator_() % static_cast<unsigned>(n)); }
-
- private:
-  std::mt19937 generator_;
-};
 
 struct Trial {
   Scene scene;

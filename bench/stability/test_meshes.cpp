@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "test_meshes.h"
 
+#include "../../tests/support/random_shapes.h"
 #include "meniscus/core/error.h"
 #include "meniscus/geometry/inspect.h"
 #include "meniscus/geometry/shapes.h"
@@ -8,25 +9,12 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <random>
 
 namespace meniscus::bench {
 namespace {
 
 using Eigen::Vector3d;
-
-class Numbers {
- public:
-  explicit Numbers(unsigned seed) : generator_(seed) {}
-  double symmetric() { return 2 * (generator_() / 4294967296.0) - 1; }
-  Vector3d vector() {
-    const double x = symmetric(), y = symmetric(), z = symmetric();
-    return {x, y, z};
-  }
-
- private:
-  std::mt19937 generator_;
-};
+using random_shapes::Numbers;
 
 /// Of every `one_in`-th edge, brings one end to `share` of the way from the other; each vertex at most once.
 void shorten_edges(Mesh& mesh, std::size_t one_in, double share) {
@@ -64,7 +52,7 @@ Mesh test_spheroid(Quality quality, double radius, double edge_length, unsigned 
   Columns x = positions(mesh);
   Numbers numbers(seed);
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
-    if (quality == Quality::jittered) x.col(i) += 0.15 * edge_length * numbers.vector();
+    if (quality == Quality::jittered) x.col(i) += 0.15 * edge_length * numbers.vector(1);
     if (quality == Quality::obtuse) x.col(i) = Eigen::AngleAxisd(1.5 * x(2, i) / radius, Vector3d::UnitZ()) * x.col(i);
     x.col(i) = axes.cwiseProduct(x.col(i).normalized());
   }

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace meniscus {
 namespace {
 
@@ -61,39 +59,6 @@ Vector3d apply_friction(const Vector3d& velocity, const Vector3d& solid_velocity
   const double speed = slip.norm();
   if (speed <= epsilon) return solid_velocity;
   return velocity - epsilon / speed * slip;
-}
-
-/// Whether p lies within the triangle of three points, as seen along n.
-bool is_within(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& n) {
-  const double u = (b - a).cross(p - a).dot(n), v = (c - b).cross(p - b).dot(n), w = (a - c).cross(p - c).dot(n);
-  return (u <= 0 && v <= 0 && w <= 0) || (u >= 0 && v >= 0 && w >= 0);
-}
-
-/// A vertex of the free surface that sank through the drop's own wetted area goes above it by this share of its edges'
-/// length: in between there is liquid, too thin for the mesh to show.
-constexpr double film_thickness = 0.02;
-
-bool is_over_wetted_area(const Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n) {
-  const ConstColumns x = drop.positions();
-  const Contact* contact = drop.contact();
-  for (const auto& [a, b, c] : drop.connectivity().triangles()) {
-    if (a == Connectivity::removed || a == v || b == v || c == v) continue;
-    if (!is_colliding(contact[a]) || !is_colliding(contact[b]) || !is_colliding(contact[c])) continue;
-    const Vector3d p_a = x.col(a), p_b = x.col(b), p_c = x.col(c);
-    if ((p_b - p_a).cross(p_c - p_a).dot(n) < 0 && is_within(p, p_a, p_b, p_c, n)) return true;
-  }
-  return false;
-}
-
-/// Puts a vertex that is at or below p, on a solid of normal n, above it; it is free then.
-void lift(Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n) {
-  Columns x = drop.positions();
-  const Ring ring = drop.connectivity().ring(v);
-  double length = 0;
-  for (int k = 0; k < ring.degree; ++k) length += (x.col(ring.neighbour[k]) - p).norm() / ring.degree;
-  x.col(v) = p + film_thickness * length * n;
-  drop.contact()[v] = Contact::free;
-  drop.contact_solid()[v] = -1;
 }
 
 class Collider {
@@ -210,7 +175,7 @@ ExternalForcesReport apply_external_forces(Drop& drop, const std::vector<Solid>&
   if (solids.empty()) return report;
   Contact* contact = drop.contact();
   const auto n = static_cast<std::uint32_t>(drop.num_rows());
-  const bool was_in_contact = std::any_of(contact, contact + n, is_colliding);
+  const bool was_in_contact = touches_solid(drop);
   Collider collider(drop, solids, box, time, dt, options);
   if (!collider.has_work(was_in_contact)) return report;
 
@@ -224,27 +189,6 @@ ExternalForcesReport apply_external_forces(Drop& drop, const std::vector<Solid>&
   }
   mark_contact_line(drop);
   return report;
-}
-
-std::size_t lift_films(Drop& drop, const std::vector<Solid>& solids, double time) {
-  const Contact* contact = drop.contact();
-  const auto n = static_cast<std::uint32_t>(drop.num_rows());
-  if (std::none_of(contact, contact + n, is_colliding)) return 0;
-  const Eigen::AlignedBox3d box = bounding_box(drop);
-  std::size_t lifted = 0;
-  for (const Solid& solid : solids) {
-    if (solid.inflow || !solid.is_near(box, time, 0)) continue;
-    for (std::uint32_t v = 0; v < n; ++v) {
-      const Vector3d x = drop.positions().col(v);
-      if (drop.connectivity().degree(v) == 0 || is_colliding(contact[v])) continue;
-      if (!solid.is_near(Eigen::AlignedBox3d(x), time, 0)) continue;
-      const SolidContact below = solid.query(x, time);
-      if (below.distance > 0 || !is_over_wetted_area(drop, v, below.point, below.normal)) continue;
-      lift(drop, v, below.point, below.normal);
-      ++lifted;
-    }
-  }
-  return lifted;
 }
 
 void find_contact(Drop& drop, const std::vector<Solid>& solids, double time, double tolerance) {

@@ -30,7 +30,7 @@ void restore_rigid_motion(Drop& drop, const RigidMotion& before, const RigidMoti
 
 void remove_tangential_deformation(Drop& drop, const SurfaceGeometry& geometry, double dt) {
   const Contact* contact = drop.contact();
-  const bool in_flight = std::none_of(contact, contact + drop.num_rows(), is_colliding);
+  const bool in_flight = !touches_solid(drop);
   const RigidMotion rigid = free_rigid_motion(drop, geometry);
   Columns x = drop.positions(), v = drop.velocities();
   const RigidMotionFit none(fit_origin(x, geometry));

@@ -27,14 +27,7 @@ struct Motion {
 Motion motion_of(const Drop& drop) {
   const ConstColumns v = drop.velocities();
   Motion motion;
-  std::size_t vertices = 0;
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-    if (drop.connectivity().degree(i) > 0) {
-      motion.velocity += v.col(i);
-      ++vertices;
-    }
-  if (vertices == 0) return motion;
-  motion.velocity /= static_cast<double>(vertices);
+  motion.velocity = mean_over_vertices(drop, v);
   for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
     if (drop.connectivity().degree(i) > 0)
       motion.spread = std::max(motion.spread, (v.col(i) - motion.velocity).squaredNorm());

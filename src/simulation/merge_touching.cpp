@@ -29,37 +29,20 @@ Pairs meeting_pairs(const std::vector<Drop>& drops, const std::vector<Eigen::Ali
 
 bool boxes_meet(const Drop& a, const Drop& b) { return bounding_box(a).intersects(bounding_box(b)); }
 
-bool touches_solid(const Drop& drop) {
-  return std::any_of(drop.contact(), drop.contact() + drop.num_rows(), is_colliding);
+double top_speed(const Drop& drop) {
+  double most = 0;
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+    if (drop.connectivity().degree(i) > 0) most = std::max(most, drop.velocities().col(i).norm());
+  return most;
 }
 
-/// What is needed of a drop's motion: means over its vertices, for the liquid's momentum tells little on a solid.
-struct Motion {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero(), velocity = Eigen::Vector3d::Zero();
-  double top_speed = 0;
-};
-
-Motion motion_of(const Drop& drop) {
-  Motion motion;
-  double count = 0;
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
-    if (drop.connectivity().degree(i) == 0) continue;
-    motion.center += drop.positions().col(i);
-    motion.velocity += drop.velocities().col(i);
-    motion.top_speed = std::max(motion.top_speed, drop.velocities().col(i).norm());
-    ++count;
-  }
-  if (count > 0) motion.center /= count, motion.velocity /= count;
-  return motion;
-}
-
-/// The drops move apart, as the pieces of a neck that has just pinched off. Where solids hold both, speeds do not tell.
+/// The drops move apart, as the pieces of a neck that has just pinched off: by means over their vertices, for the
+/// liquid's momentum tells little on a solid. Where solids hold both, speeds do not tell.
 bool are_parting(const Drop& a, const Drop& b) {
   if (touches_solid(a) && touches_solid(b)) return false;
-  const Motion p = motion_of(a), q = motion_of(b);
-  const Eigen::Vector3d apart = p.center - q.center;
-  const double noise = 0.01 * apart.norm() * std::max(p.top_speed, q.top_speed);
-  return apart.dot(p.velocity - q.velocity) > noise;
+  const Eigen::Vector3d apart = mean_over_vertices(a, a.positions()) - mean_over_vertices(b, b.positions());
+  const Eigen::Vector3d speed = mean_over_vertices(a, a.velocities()) - mean_over_vertices(b, b.velocities());
+  return apart.dot(speed) > 0.01 * apart.norm() * std::max(top_speed(a), top_speed(b));
 }
 
 /// Unites what can be united among the drops of a group, the first pair first.

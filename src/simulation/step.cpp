@@ -6,6 +6,7 @@
 #include "meniscus/operators/contact_angle.h"
 #include "meniscus/operators/damping.h"
 #include "meniscus/operators/external_forces.h"
+#include "meniscus/operators/lift_films.h"
 #include "meniscus/operators/mean_curvature_flow.h"
 #include "meniscus/operators/tangential_damping.h"
 #include "meniscus/operators/volume_correction.h"
@@ -30,10 +31,6 @@ double tension_over_mass(const Drop& drop, const SurfaceGeometry& geometry, cons
   return 2 * liquid.surface_tension / (liquid.density * length);
 }
 
-bool is_in_contact(const Drop& drop) {
-  return drop.num_rows() > 0 && std::any_of(drop.contact(), drop.contact() + drop.num_rows(), is_colliding);
-}
-
 /// From this Weber number rho v^2 D/sigma on, what comes from a source is a jet and no longer drips from it
 /// (Clanet and Lasheras 1999: about 4 where gravity matters little).
 constexpr double jet_weber = 4;
@@ -55,7 +52,7 @@ bool is_jet(const Drop& drop, const std::vector<Solid>& solids, double time, con
 /// Whether gravity acts as a pressure: on a drop that a solid holds. In flight, in a jet, and in Level::paper,
 /// it moves the vertices instead.
 bool gravity_is_pressure(const Drop& drop, bool jet, const StepOptions& step) {
-  return step.level != Level::paper && step.liquid.surface_tension > 0 && !jet && is_in_contact(drop);
+  return step.level != Level::paper && step.liquid.surface_tension > 0 && !jet && touches_solid(drop);
 }
 
 /// What holds against the curvature at rest.
@@ -219,7 +216,7 @@ void deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt
                                     drop.id(), 1 + volume.relative_error));
   clock.done(Stage::volume_correction);
 
-  if (forces.colliding > 0 && lift_films(drop, solids, time) > 0) mark_contact_line(drop);
+  if (forces.colliding > 0) lift_films(drop, solids, time);
   if (options.volume_correction == VolumeCorrectionMethod::none) report.skip(Stage::volume_correction);
 }
 

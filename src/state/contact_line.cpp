@@ -93,7 +93,7 @@ std::optional<double> mean_contact_angle(const Drop& drop) {
 double wetted_area(const Drop& drop) {
   const ConstColumns x = drop.positions();
   const Contact* contact = drop.contact();
-  if (std::none_of(contact, contact + drop.num_rows(), is_colliding)) return 0;
+  if (!touches_solid(drop)) return 0;
   double area = 0;
   for (const auto& [a, b, c] : drop.connectivity().triangles()) {
     if (a == Connectivity::removed || !is_colliding(contact[a])) continue;

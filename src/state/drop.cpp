@@ -102,6 +102,21 @@ Eigen::AlignedBox3d bounding_box(const Drop& drop) {
   return box;
 }
 
+bool touches_solid(const Drop& drop) {
+  return std::any_of(drop.contact(), drop.contact() + drop.num_rows(), is_colliding);
+}
+
+Eigen::Vector3d mean_over_vertices(const Drop& drop, const ConstColumns& columns) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
+    if (drop.connectivity().degree(i) == 0) continue;
+    sum += columns.col(i);
+    ++count;
+  }
+  return count > 0 ? Eigen::Vector3d(sum / static_cast<double>(count)) : sum;
+}
+
 bool hangs_from(const Drop& drop, std::int32_t solid) {
   for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
     if (is_colliding(drop.contact()[i]) && drop.contact_solid()[i] == solid && drop.connectivity().degree(i) > 0)

@@ -12,8 +12,7 @@ RigidMotion free_rigid_motion(const Drop& drop, const SurfaceGeometry& geometry)
   RigidMotion held;
   double area = 0;
   const Contact* contact = drop.contact();
-  if (std::none_of(contact, contact + drop.num_rows(), is_colliding))
-    return fit_rigid_motion(drop.positions(), v, geometry);
+  if (!touches_solid(drop)) return fit_rigid_motion(drop.positions(), v, geometry);
   for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
     if (contact[i] != Contact::line) continue;
     const Vector3d n = drop.contact_normals().col(i);

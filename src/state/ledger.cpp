@@ -62,10 +62,6 @@ Vector3d fitted_rotation(const Drop& drop, const SurfaceGeometry& geometry) {
   return fit_rigid_motion(drop.positions(), drop.velocities(), geometry).rotation;
 }
 
-bool touches_solid(const Drop& drop) {
-  return std::any_of(drop.contact(), drop.contact() + drop.num_rows(), is_colliding);
-}
-
 /// Flux and momentum about `center` of a velocity field, as one vector (flux, P).
 template <class Field>
 Vector4d flux_and_momentum(const Drop& drop, const Vector3d& center, Field u) {

@@ -3,6 +3,7 @@
 
 #include "meniscus/topology/boolean.h"
 
+#include <algorithm>
 #include <optional>
 
 /// The stages of boolean(), each a function of flat arrays.
@@ -16,6 +17,9 @@ inline Kernel::Triangle_3 triangle_of(const MeshView& view, std::uint32_t f) {
   return {point_at(view, t[0]), point_at(view, t[1]), point_at(view, t[2])};
 }
 inline bool is_removed(const Triangle& t) { return t[0] == Connectivity::removed; }
+inline bool share_a_vertex(const Triangle& s, const Triangle& t) {
+  return std::any_of(s.begin(), s.end(), [&](std::uint32_t v) { return v == t[0] || v == t[1] || v == t[2]; });
+}
 inline Triangle turned(const Triangle& t) { return {t[0], t[2], t[1]}; }
 
 /// The result in general position: faces that meet are cut along the seam, all others are kept or

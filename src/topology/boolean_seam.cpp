@@ -210,10 +210,6 @@ bool sort_along_edges(const MeshView& a, const MeshView& b, Seam& seam) {
   return all_differ;
 }
 
-bool share_a_vertex(const Triangle& s, const Triangle& t) {
-  return std::any_of(s.begin(), s.end(), [&](std::uint32_t v) { return v == t[0] || v == t[1] || v == t[2]; });
-}
-
 /// The corners of t that s lacks lie on one side of s: they meet in what they share only.
 bool is_on_one_side(const MeshView& mesh, const Triangle& s, const Triangle& t) {
   int found = 0;

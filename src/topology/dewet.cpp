@@ -97,10 +97,6 @@ bool try_dewet(RemeshState& state, HalfedgeIndex h) {
   for (const auto u : {a, b, v, w}) state.update(u);
   for (const auto u : {a, b, v, w}) state.update_contact(u);
   state.queue_ring(v);
-  if (state.scratch.guard) {
-    const Ring ring = state.ring(v);
-    for (int k = 0; k < ring.degree; ++k) state.scratch.guard->add(ring.corner[k] / 3);
-  }
   ++state.report.flips;
   return true;
 }

@@ -11,24 +11,13 @@
 namespace meniscus {
 namespace {
 
-Eigen::Vector3d mean_velocity(const Drop& drop) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double count = 0;
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
-    if (drop.connectivity().degree(i) == 0) continue;
-    sum += drop.velocities().col(i);
-    ++count;
-  }
-  return count > 0 ? Eigen::Vector3d(sum / count) : sum;
-}
-
 /// A drop's points as they would be had it only moved as a rigid body since `before`; it did not move at all if a
 /// solid holds it. Sets `velocity` to that of the same motion; on a solid to half of the mean, so that a drop that is
 /// taken back again and again comes to rest.
 Eigen::Matrix3Xd carried_along(const Drop& drop, const Eigen::Matrix3Xd& before, RigidMotion& velocity) {
   velocity = RigidMotion();
-  if (std::any_of(drop.contact(), drop.contact() + drop.num_rows(), is_colliding)) {
-    velocity.translation = 0.5 * mean_velocity(drop);
+  if (touches_solid(drop)) {
+    velocity.translation = 0.5 * mean_over_vertices(drop, drop.velocities());
     return before;
   }
   SurfaceGeometry geometry;
@@ -45,10 +34,6 @@ Eigen::Matrix3Xd carried_along(const Drop& drop, const Eigen::Matrix3Xd& before,
 constexpr double largest_volume_error = 0.2;
 
 enum class Folds { between_neighbours, all };
-
-bool share_a_vertex(const Triangle& s, const Triangle& t) {
-  return std::any_of(s.begin(), s.end(), [&](std::uint32_t v) { return v == t[0] || v == t[1] || v == t[2]; });
-}
 
 /// Moves a vertex halfway to the mean of its neighbours, or less, if its faces then meet nothing.
 void relax(Drop& drop, std::uint32_t v, SheetGuard& guard) {
@@ -197,7 +182,9 @@ class TakeBack {
     const auto& triangles = drop_.connectivity().triangles();
     if (folds == Folds::between_neighbours)
       meeting.erase(std::remove_if(meeting.begin(), meeting.end(),
-                                   [&](const auto& p) { return !share_a_vertex(triangles[p[0]], triangles[p[1]]); }),
+                                   [&](const auto& p) {
+                                     return !boolean_parts::share_a_vertex(triangles[p[0]], triangles[p[1]]);
+                                   }),
                     meeting.end());
     return meeting;
   }
@@ -235,8 +222,7 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& 
   const WatchedRegion region =
       options.self_merge ? WatchedRegion() : watched_region(drop, options.remesh.band.edge_max);
   if (region.empty()) return std::nullopt;
-  std::vector<FaceBox> faces = region.faces_of(drop);
-  FoldFinder finder(drop, faces);
+  FoldFinder finder(drop, region.faces_of(drop));
   if (finder.meeting().empty()) {
     count_down_watch(drop, options.remesh.band.edge_max);
     return std::nullopt;
@@ -247,8 +233,7 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& 
   if (take_back) take_back->run(Folds::between_neighbours);  // no union mends these
   BooleanResult result;
   if (!finder.meeting().empty()) {
-    faces = region.faces_of(drop);
-    result = unite_with_itself(view_of(std::as_const(drop)), faces, options.keep_air);
+    result = unite_with_itself(view_of(std::as_const(drop)), region.faces_of(drop), options.keep_air);
     if (!result.ok() && take_back) take_back->run(Folds::all);
   }
   const std::vector<std::uint32_t> taken = take_back ? take_back->taken() : std::vector<std::uint32_t>();

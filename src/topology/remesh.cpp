@@ -120,7 +120,7 @@ void scan(RemeshState& state) {
   const auto& triangles = state.connectivity.triangles();
   const Contact* contact = state.drop.contact();
   const std::size_t rows = state.drop.num_rows();
-  state.has_contact = std::any_of(contact, contact + rows, is_colliding);
+  state.has_contact = touches_solid(state.drop);
   std::fill_n(state.drop.poor_quality(), rows, std::uint8_t{0});
   const auto x = std::as_const(state.drop).positions();
   const double low2 = state.options.band.edge_min * state.options.band.edge_min;

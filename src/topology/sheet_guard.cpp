@@ -11,6 +11,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// So that a face far larger than others does not ask for a cell for each point of space.
+constexpr double most_cells_along = 20;
+
 bool holds(const std::vector<std::uint32_t>& list, std::uint32_t x) {
   return std::find(list.begin(), list.end(), x) != list.end();
 }
@@ -42,7 +45,9 @@ bool is_clearly_beside(const SheetGuard::NewFace& s, const SheetGuard::NewFace& 
 
 SheetGuard::SheetGuard(const Drop& drop, WatchedRegion region, double cell)
     : drop_(drop), region_(std::move(region)), cell_(cell) {
-  for (const FaceBox& face : region_.faces_of(drop)) add_to_cells(face.face, face.box);
+  const std::vector<FaceBox> faces = region_.faces_of(drop);
+  for (const FaceBox& face : faces) cell_ = std::max(cell_, face.box.sizes().maxCoeff() / most_cells_along);
+  for (const FaceBox& face : faces) add_to_cells(face.face, face.box);
 }
 
 SheetGuard::Cell SheetGuard::cell_of(const Vector3d& x) const {

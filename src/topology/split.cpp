@@ -53,6 +53,12 @@ struct Component {
   std::vector<FaceIndex> faces;
 };
 
+/// The place of a vertex among those of its component.
+std::uint32_t row_in(const Component& component, VertexIndex v) {
+  const auto at = std::lower_bound(component.vertices.begin(), component.vertices.end(), v);
+  return static_cast<std::uint32_t>(at - component.vertices.begin());
+}
+
 std::vector<Component> components_of(const Mesh& mesh, const Labels& labels) {
   std::vector<Component> components(labels.count);
   for (const auto v : mesh.vertices())
@@ -71,13 +77,10 @@ Mesh extract(const Mesh& mesh, const Component& component) {
     piece.add_vertex(mesh.point(v));
     sources.push_back(same_as(v));
   }
-  const auto number = [&](VertexIndex v) {
-    const auto it = std::lower_bound(component.vertices.begin(), component.vertices.end(), v);
-    return VertexIndex(static_cast<Mesh::size_type>(it - component.vertices.begin()));
-  };
   for (const auto f : component.faces) {
     std::vector<VertexIndex> face;
-    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) face.push_back(number(v));
+    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh))
+      face.push_back(VertexIndex(row_in(component, v)));
     piece.add_face(face);
   }
   gather_attributes(mesh, piece, sources);
@@ -101,13 +104,8 @@ bool is_knot(const Mesh& mesh, const Component& component) {
   if (component.faces.size() > most_faces) return false;
   MeshData soup;
   for (const auto f : component.faces) {
-    std::array<std::uint32_t, 3> triangle;
-    const auto vertices = corners(mesh, f);
-    for (int k = 0; k < 3; ++k) {
-      const auto at = std::lower_bound(component.vertices.begin(), component.vertices.end(), vertices[k]);
-      triangle[k] = static_cast<std::uint32_t>(at - component.vertices.begin());
-    }
-    soup.triangles.push_back(triangle);
+    const auto [a, b, c] = corners(mesh, f);
+    soup.triangles.push_back({row_in(component, a), row_in(component, b), row_in(component, c)});
   }
   for (const auto v : component.vertices) {
     const Point& p = mesh.point(v);

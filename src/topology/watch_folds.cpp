@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "boolean_parts.h"
 #include "face_grid.h"
+#include "meniscus/core/chunks.h"
 #include "merge_parts.h"
 
 #include <algorithm>
@@ -24,10 +25,6 @@ constexpr double opposite = -0.3;
 Vector3d area_vector(const MeshView& mesh, const Triangle& t) {
   const Vector3d a = mesh.points.col(t[0]);
   return (Vector3d(mesh.points.col(t[1])) - a).cross(Vector3d(mesh.points.col(t[2])) - a);
-}
-
-bool share_a_vertex(const Triangle& s, const Triangle& t) {
-  return std::any_of(s.begin(), s.end(), [&](std::uint32_t v) { return v == t[0] || v == t[1] || v == t[2]; });
 }
 
 /// The watch does not end where another sheet of the surface is within `reach`: vertices about to be forgotten are
@@ -62,7 +59,8 @@ void watch_close_sheets(Drop& drop, double reach) {
     grid.for_each_meeting({box.min() - margin, box.max() + margin}, [&](const FaceBox& other) {
       const Triangle& t = mesh.triangles[other.face];
       const Vector3d n = area_vector(mesh, t);
-      if (share_a_vertex(s, t) || !has(t, is_free) || !(m.dot(n) < opposite * m.norm() * n.norm())) return true;
+      if (boolean_parts::share_a_vertex(s, t) || !has(t, is_free) || !(m.dot(n) < opposite * m.norm() * n.norm()))
+        return true;
       kept.insert(kept.end(), s.begin(), s.end());
       kept.insert(kept.end(), t.begin(), t.end());
       return true;
@@ -76,24 +74,31 @@ void watch_close_sheets(Drop& drop, double reach) {
 void watch_violent_faces(Drop& drop, const Eigen::Matrix3Xd& before) {
   const ConstColumns x = std::as_const(drop).positions(), n = std::as_const(drop).contact_normals();
   const SurfaceGeometry& geometry = drop.workspace().geometry;
-  std::uint8_t* const watch = drop.seam_watch();
+  const auto& triangles = drop.connectivity().triangles();
   const Contact* const contact = drop.contact();
-  const bool has_normals = geometry.faces().size() == drop.connectivity().triangles().size();
-  for (const auto& [a, b, c] : drop.connectivity().triangles()) {
-    if (a == Connectivity::removed) continue;
+  const bool has_normals = geometry.faces().size() == triangles.size();
+  const auto may_fold_soon = [&](const Triangle& face) {
+    const auto [a, b, c] = face;
+    if (a == Connectivity::removed) return false;
     const Vector3d p = before.col(b) - before.col(a), q = before.col(c) - before.col(a);
     const Vector3d s = x.col(b) - x.col(a), t = x.col(c) - x.col(a), normal = s.cross(t);
-    const bool is_violent =
-        changes_much(p, s) || changes_much(q, t) || changes_much(q - p, t - s) || !(p.cross(q).dot(normal) > 0);
-    const auto is_turned_at = [&](std::uint32_t v) {
-      return !is_colliding(contact[v]) && normal.dot(geometry.normal(v)) < 0;
-    };
-    const bool is_on_solid = is_colliding(contact[a]) && is_colliding(contact[b]) && is_colliding(contact[c]);
-    const bool is_turned = is_on_solid ? !(normal.dot(n.col(a) + n.col(b) + n.col(c)) < 0)
-                                       : has_normals && (is_turned_at(a) || is_turned_at(b) || is_turned_at(c));
-    if (!is_violent && !is_turned) continue;
-    for (const auto v : {a, b, c}) watch[v] = std::max(watch[v], violent_watched_calls);
-  }
+    if (changes_much(p, s) || changes_much(q, t) || changes_much(q - p, t - s) || !(p.cross(q).dot(normal) > 0))
+      return true;
+    if (is_colliding(contact[a]) && is_colliding(contact[b]) && is_colliding(contact[c]))
+      return !(normal.dot(n.col(a) + n.col(b) + n.col(c)) < 0);
+    return has_normals && std::any_of(face.begin(), face.end(), [&](std::uint32_t v) {
+             return !is_colliding(contact[v]) && normal.dot(geometry.normal(v)) < 0;
+           });
+  };
+  const auto count = sum_over_chunks(triangles.size(), std::size_t{0}, [&](std::size_t begin, std::size_t end) {
+    return static_cast<std::size_t>(std::count_if(triangles.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                  triangles.begin() + static_cast<std::ptrdiff_t>(end), may_fold_soon));
+  });
+  if (count == 0) return;
+  std::uint8_t* const watch = drop.seam_watch();
+  for (const Triangle& face : triangles)
+    if (may_fold_soon(face))
+      for (const auto v : face) watch[v] = std::max(watch[v], violent_watched_calls);
 }
 
 bool may_fold(const Drop& drop, const MergeOptions& options) {

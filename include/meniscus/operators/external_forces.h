@@ -38,11 +38,6 @@ struct ExternalForcesReport {
 ExternalForcesReport apply_external_forces(Drop& drop, const std::vector<Solid>& solids, double time, double dt,
                                            const ExternalForcesOptions& options);
 
-/// Puts free vertices that sank into a solid through the drop's own wetted area a little above it; what sank in beside
-/// it is left to the next step's collisions. For operators that move the free surface without looking at solids.
-/// Returns how many vertices were lifted.
-std::size_t lift_films(Drop& drop, const std::vector<Solid>& solids, double time);
-
 /// Marks the vertices that lie within `tolerance` (cm) of a solid, or inside it, as colliding, and
 /// all others as free; moves nothing. For drops that start on a solid.
 void find_contact(Drop& drop, const std::vector<Solid>& solids, double time, double tolerance);

@@ -164,6 +164,12 @@ class Drop {
 /// The box of a drop's vertices (cm); empty if it has none.
 Eigen::AlignedBox3d bounding_box(const Drop& drop);
 
+/// Whether some vertex touches a solid.
+bool touches_solid(const Drop& drop);
+
+/// The mean of the columns (3 x rows) of the vertices that are there, each counted once; zero if there are none.
+Eigen::Vector3d mean_over_vertices(const Drop& drop, const ConstColumns& columns);
+
 /// Whether some vertex touches solid s.
 bool hangs_from(const Drop& drop, std::int32_t solid);
 

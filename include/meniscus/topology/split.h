@@ -12,7 +12,7 @@ namespace meniscus {
 /// target volumes, unless no piece was left.
 struct SplitReport {
   std::size_t pieces = 0;
-  std::size_t deleted = 0;        ///< components of one tetrahedron (Section 5.2), or of less than the least volume
+  std::size_t deleted = 0;        ///< components too small or too knotted to go on, see below
   std::size_t deleted_empty = 0;  ///< components that enclosed no positive volume
   double volume_deleted = 0;      ///< what the tetrahedra enclosed
   double volume_shared = 0;       ///< old target volume less what the pieces enclose; shared among them
@@ -20,8 +20,9 @@ struct SplitReport {
 
 /// Each connected component becomes a drop of its own, in the order of smallest old vertex index,
 /// with velocities, contact state and every other vertex map of numbers or vectors. A component of
-/// one tetrahedron, or of no positive volume, is deleted; so is one of less than `least_volume` (cm^3), too
-/// small for its edges to have a shape, if there is another that can take its volume.
+/// one tetrahedron, or of no positive volume, or of at most 16 faces that meet each other, is deleted; so is one of
+/// less than `least_volume` (cm^3), too small for its edges to have a shape, if there is another that can take its
+/// volume.
 ///
 /// The lost volume (target less what the pieces enclose) is shared evenly (Section 5.2), but by at
 /// most 5 % of a piece's own volume; what is above goes to the others in proportion to volume (to

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meniscus/state/drop.h"
+#include "meniscus/state/solid.h"
+
+#include <vector>
+
+namespace meniscus {
+
+/// Puts free vertices that sank into a solid through the drop's own wetted area above it again, by 0.02 of the mean
+/// length of their edges: in between there is liquid, too thin for the mesh to show. What sank in beside the wetted
+/// area is left to the next step's collisions. For the end of a substep, after operators that move the free surface
+/// without looking at solids. Not in the paper.
+///
+/// Reads contact state and solids at `time` (s); writes positions (cm) of free vertices. Sources (Solid::inflow) are no
+/// solids here; a drop that touches nothing is left as it is.
+void lift_films(Drop& drop, const std::vector<Solid>& solids, double time);
+
+}  // namespace meniscus

@@ -59,6 +59,14 @@ struct Tracker : PMP::Corefinement::Default_visitor<Mesh> {
   }
 };
 
+/// Of the old triangles about a vertex of the cut mesh, the first: CGAL's order follows the addresses of its nodes.
+Triangle first_old_triangle(const Side& side, VertexIndex v) {
+  Triangle first = side.old_triangle[side.mesh.face(side.mesh.halfedge(v))];
+  for (const auto f : CGAL::faces_around_target(side.mesh.halfedge(v), side.mesh))
+    first = std::min(first, side.old_triangle[f]);
+  return first;
+}
+
 /// Where a place of the cut mesh comes from; nothing if no vertex lies there.
 std::optional<SurfacePoint> origin(const MeshView& view, const Side& side, const std::array<double, 3>& place) {
   const auto found = side.place.find(place);
@@ -68,21 +76,28 @@ std::optional<SurfacePoint> origin(const MeshView& view, const Side& side, const
     const std::uint32_t old = side.old_vertex[v];
     return SurfacePoint{{old, old, old}, {1, 0, 0}};
   }
-  const FaceIndex f = side.mesh.face(side.mesh.halfedge(v));
-  return surface_point(view, side.old_triangle[f], Eigen::Vector3d(place[0], place[1], place[2]));
+  return surface_point(view, first_old_triangle(side, v), Eigen::Vector3d(place[0], place[1], place[2]));
 }
 
 void find_places(Side& side) {
   for (const auto v : side.mesh.vertices()) side.place.emplace(key(side.mesh.point(v)), v);
 }
 
-/// The output in the order that BooleanResult promises.
+/// With the least index first.
+Triangle rotated(Triangle t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
+
+/// The output in the order that BooleanResult promises, and in no other respect in CGAL's: that may differ from run to
+/// run.
 BooleanResult sorted_result(const MeshView& a, const MeshView& b, Side& side_a, Side& side_b, const Mesh& out) {
   find_places(side_a);
   find_places(side_b);
   struct Row {
     int group;  // 0: kept of A, 1: kept of B, 2: seam
     std::uint32_t old;
+    std::array<double, 3> place;
     VertexIndex vertex;
     SeamVertex seam;
   };
@@ -90,15 +105,16 @@ BooleanResult sorted_result(const MeshView& a, const MeshView& b, Side& side_a, 
   for (const auto v : out.vertices()) {
     const auto place = key(out.point(v));
     const auto on_a = origin(a, side_a, place), on_b = origin(b, side_b, place);
-    Row row{2, v, v, {}};
+    Row row{2, 0, place, v, {}};
     if (on_a && on_b)
       row.seam = {*on_a, *on_b};
     else
       row.group = on_a ? 0 : 1, row.old = (on_a ? on_a : on_b)->corners[0];
     rows.push_back(row);
   }
-  std::sort(rows.begin(), rows.end(),
-            [](const Row& r, const Row& s) { return std::tie(r.group, r.old) < std::tie(s.group, s.old); });
+  std::sort(rows.begin(), rows.end(), [](const Row& r, const Row& s) {
+    return std::tie(r.group, r.old, r.place) < std::tie(s.group, s.old, s.place);
+  });
   BooleanResult result;
   result.step = BooleanStep::corefined;
   std::vector<std::uint32_t> number(out.num_vertices());
@@ -117,9 +133,12 @@ BooleanResult sorted_result(const MeshView& a, const MeshView& b, Side& side_a, 
     const std::array<VertexIndex, 3> v{out.source(h), out.target(h), out.target(out.next(h))};
     const bool all_a = group[v[0]] == 0 && group[v[1]] == 0 && group[v[2]] == 0;
     const bool all_b = group[v[0]] == 1 && group[v[1]] == 1 && group[v[2]] == 1;
-    of[all_a ? 0 : all_b ? 1 : 2].push_back({number[v[0]], number[v[1]], number[v[2]]});
+    of[all_a ? 0 : all_b ? 1 : 2].push_back(rotated({number[v[0]], number[v[1]], number[v[2]]}));
   }
-  for (auto& triangles : of) result.triangles.insert(result.triangles.end(), triangles.begin(), triangles.end());
+  for (auto& triangles : of) {
+    std::sort(triangles.begin(), triangles.end());
+    result.triangles.insert(result.triangles.end(), triangles.begin(), triangles.end());
+  }
   result.whole_a = of[0].size();
   result.whole_b = of[1].size();
   return result;

@@ -4,6 +4,7 @@
 #include "meniscus/geometry/measure.h"
 #include "meniscus/geometry/shapes.h"
 #include "support/judge.h"
+#include "support/random_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -71,6 +72,36 @@ TEST(Boolean, MeshesThatDoNotMeetAreKeptOrDroppedWhole) {
   EXPECT_EQ(nested.triangles, a.triangles);
   const BooleanResult hollow = boolean(view_of(a), view_of(in), BooleanOperation::subtract);
   EXPECT_NEAR(hollow.volume, hollow.volume_a - hollow.volume_b, 1e-14);
+}
+
+TEST(Boolean, SameBitsWhereverMemoryLies) {
+  // Caps on one plane have faces in common with it, so that CGAL unites them; its order of new faces follows addresses.
+  random_shapes::Numbers numbers(1);
+  for (int pair = 0; pair < 12; ++pair) {
+    const auto cap = [&](double x, double y) {
+      const double radius = numbers.between(0.15, 0.25), angle = numbers.between(0.8, 2.2);
+      return to_mesh_data(make_cap({x, y, 0}, {0, 0, 1}, radius, angle, 0.05));
+    };
+    const double x = numbers.between(0.2, 0.35), y = numbers.between(-0.1, 0.1);
+    const MeshData a = cap(0, 0), b = cap(x, y);
+    const BooleanResult first = boolean(view_of(a), view_of(b), BooleanOperation::unite);
+    ASSERT_TRUE(first.ok()) << first.message;
+    std::vector<std::vector<char>> blocks;  // of all sizes, so that what comes next lies elsewhere
+    for (int run = 0; run < 4; ++run) {
+      for (int k = 0; k < 200; ++k) {
+        blocks.emplace_back(static_cast<std::size_t>(16 + numbers.below(3000)));
+        if (k % 2 == 0) blocks.erase(blocks.begin() + numbers.below(static_cast<int>(blocks.size())));
+      }
+      const BooleanResult again = boolean(view_of(a), view_of(b), BooleanOperation::unite);
+      EXPECT_EQ(again.points, first.points);
+      EXPECT_EQ(again.triangles, first.triangles);
+      ASSERT_EQ(again.seam.size(), first.seam.size());
+      for (std::size_t k = 0; k < first.seam.size(); ++k) {
+        EXPECT_EQ(again.seam[k].on_a.corners, first.seam[k].on_a.corners);
+        EXPECT_EQ(again.seam[k].on_b.corners, first.seam[k].on_b.corners);
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -11,7 +11,9 @@
 #include "meniscus/operators/pressure.h"
 #include "meniscus/operators/tangential_damping.h"
 #include "meniscus/operators/volume_correction.h"
-#include "meniscus/topology/merge.h"
+#include "meniscus/state/free_rigid_motion.h"
+#include "meniscus/topology/face_changes.h"
+#include "meniscus/topology/remesh.h"
 #include "step_scenes.h"
 
 #include <benchmark/benchmark.h>
@@ -151,7 +153,6 @@ void flight_damping(benchmark::State& state) {
   run(state, in_flight(state.range(0)), [](Fixture& f) {
     DampingOptions options;
     options.viscosity_coefficient = 2.456 * 0.01;
-    options.keep_rigid_motion = true;
     apply_damping(f.drop, f.geometry, f.dt, options);
   });
 }
@@ -180,7 +181,9 @@ void rest_contact_angle(benchmark::State& state) {
 }
 
 void flight_tangential_damping(benchmark::State& state) {
-  run(state, in_flight(state.range(0)), [](Fixture& f) { remove_tangential_deformation(f.drop, f.geometry, f.dt); });
+  run(state, in_flight(state.range(0)), [](Fixture& f) {
+    remove_tangential_deformation(f.drop, f.geometry, free_rigid_motion(f.drop, f.geometry), f.dt);
+  });
 }
 
 void volume_correction(benchmark::State& state, VolumeCorrectionMethod method) {
@@ -196,10 +199,11 @@ void volume_correction(benchmark::State& state, VolumeCorrectionMethod method) {
 void flight_volume_global(benchmark::State& state) { volume_correction(state, VolumeCorrectionMethod::global); }
 void flight_volume_local(benchmark::State& state) { volume_correction(state, VolumeCorrectionMethod::local); }
 
-void flight_watch_violent_faces(benchmark::State& state) {
+void flight_face_changes(benchmark::State& state) {
   Fixture fixture = in_flight(state.range(0));
   const Eigen::Matrix3Xd before = fixture.x;
-  run(state, std::move(fixture), [&](Fixture& f) { watch_violent_faces(f.drop, before); });
+  run(state, std::move(fixture),
+      [&](Fixture& f) { find_face_changes(f.drop, before, f.drop.workspace().violent_faces); });
 }
 
 void flight_remesh_unchanged(benchmark::State& state) {
@@ -243,7 +247,7 @@ BENCHMARK(rest_contact_angle)->Apply(sizes);
 BENCHMARK(flight_tangential_damping)->Apply(sizes);
 BENCHMARK(flight_volume_global)->Apply(sizes);
 BENCHMARK(flight_volume_local)->Apply(sizes);
-BENCHMARK(flight_watch_violent_faces)->Apply(sizes);
+BENCHMARK(flight_face_changes)->Apply(sizes);
 BENCHMARK(flight_remesh_unchanged)->Apply(sizes);
 BENCHMARK(flight_pressure_substep)->Apply(sizes);
 

@@ -20,6 +20,28 @@ double scale_weights(const double* half_sum, int degree, double s, double floor,
   return sum;
 }
 
+/// rhs_i = sum_k weight_k (y_k - y_i), where `value` gives y.
+template <class Value>
+void sum_differences(const Connectivity& connectivity, const RingMatrix& matrix, const Value& value, Lanes* rhs) {
+  constexpr int width = Connectivity::width;
+  for_each_chunk(connectivity.num_rows(), [&](std::size_t begin, std::size_t end) {
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+      const Ring ring = connectivity.ring(v);
+      const double* const weight = ring.degree > width ? matrix.long_weight[connectivity.long_ring(v)].data()
+                                                       : &matrix.weight[width * std::size_t{v}];
+      const Lanes own = value(v);
+      Lanes sum{};
+      for (int k = 0; k < ring.degree; ++k) sum += weight[k] * (value(ring.neighbour[k]) - own);
+      rhs[v] = sum;
+    }
+  });
+}
+
+Lanes column(const ConstColumns& columns, std::uint32_t v) {
+  const double* const p = columns.data() + 3 * std::size_t{v};
+  return Lanes{p[0], p[1], p[2], 0};
+}
+
 }  // namespace
 
 void assemble_flow_matrix(const Connectivity& connectivity, const SurfaceGeometry& geometry, double s,
@@ -54,26 +76,13 @@ void assemble_flow_matrix(const Connectivity& connectivity, const SurfaceGeometr
 
 void curvature_right_hand_side(const Connectivity& connectivity, const RingMatrix& matrix, const ConstColumns& x,
                                Lanes* rhs) {
-  constexpr int width = Connectivity::width;
-  const std::size_t n = connectivity.num_rows();
-  const double* const data = x.data();
-  const auto point = [data](std::uint32_t v) {
-    const double* const p = data + 3 * std::size_t{v};
-    return Lanes{p[0], p[1], p[2], 0};
-  };
-  const auto add = [&](const std::uint32_t* neighbour, const double* weight, int degree, const Lanes& centre) {
-    Lanes sum{};
-    for (int k = 0; k < degree; ++k) sum += weight[k] * (point(neighbour[k]) - centre);
-    return sum;
-  };
-  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
-    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
-      const Ring ring = connectivity.ring(v);
-      const double* const weight = ring.degree > width ? matrix.long_weight[connectivity.long_ring(v)].data()
-                                                       : &matrix.weight[width * std::size_t{v}];
-      rhs[v] = add(ring.neighbour, weight, ring.degree, point(v));
-    }
-  });
+  sum_differences(
+      connectivity, matrix, [&](std::uint32_t v) { return column(x, v); }, rhs);
+}
+
+void weighted_differences(const Connectivity& connectivity, const RingMatrix& matrix, const Lanes* y, Lanes* rhs) {
+  sum_differences(
+      connectivity, matrix, [&](std::uint32_t v) { return y[v]; }, rhs);
 }
 
 Eigen::Vector3d missing_translation(const SurfaceGeometry& geometry, const std::vector<Lanes>& rhs,

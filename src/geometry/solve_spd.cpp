@@ -151,6 +151,10 @@ SpdSolver::~SpdSolver() = default;
 SpdSolver::SpdSolver(SpdSolver&&) noexcept = default;
 SpdSolver& SpdSolver::operator=(SpdSolver&&) noexcept = default;
 
+void SpdSolver::forget() {
+  if (workspace_) workspace_->incomplete_is_current = workspace_->complete_is_current = false;
+}
+
 SolveReport SpdSolver::solve(const Connectivity& connectivity, const RingMatrix& matrix, const Lanes* rhs,
                              Lanes* solution, const std::uint8_t* fixed, bool pattern_changed,
                              const SolverOptions& options) {

@@ -11,20 +11,28 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double pi = 3.14159265358979323846;
+
 /// Eq 8 as written, at one vertex. Returns the change of velocity.
 Vector3d measured_angle_kick(const ContactLineVertex& line, double receding, double advancing, double alpha) {
-  if (line.angle < receding) return alpha * (line.angle - receding) * line.outward;
-  if (line.angle > advancing) return alpha * (line.angle - advancing) * line.outward;
+  const double angle = line.angle();
+  if (angle < receding) return alpha * (angle - receding) * line.outward;
+  if (angle > advancing) return alpha * (angle - advancing) * line.outward;
   return Vector3d::Zero();
 }
 
+/// What all vertices on a solid share.
+struct SolidAngles {
+  double cos_advancing, cos_receding;
+  Vector3d velocity;
+};
+
 /// The energy gradient that drives the line (cm, positive outward), zero between the two angles.
 /// `pressure` is the drop's, over sigma (1/cm): it pushes on the line vertex's share of the surface.
-double unbalanced_length(const ContactLineVertex& line, const Solid& solid, double pressure) {
+double unbalanced_length(const ContactLineVertex& line, const SolidAngles& angles, double pressure) {
   const double cosine = line.energy_cosine - pressure * line.volume_gradient / line.length;
-  const double cos_advancing = std::cos(solid.advancing_angle), cos_receding = std::cos(solid.receding_angle);
-  if (cosine < cos_advancing) return line.length * (cos_advancing - cosine);
-  if (cosine > cos_receding) return line.length * (cos_receding - cosine);
+  if (cosine < angles.cos_advancing) return line.length * (angles.cos_advancing - cosine);
+  if (cosine > angles.cos_receding) return line.length * (angles.cos_receding - cosine);
   return 0;
 }
 
@@ -40,7 +48,6 @@ Vector3d virtual_work_kick(const ContactLineVertex& line, double force, const Ve
 
 /// The line turns by no more than this at a vertex, or by three times what a polygon of its number of vertices does.
 double largest_turn(std::size_t num_line) {
-  constexpr double pi = 3.14159265358979323846;
   return std::max(pi / 2, num_line > 0 ? 6 * pi / static_cast<double>(num_line) : pi);
 }
 
@@ -63,26 +70,32 @@ ContactAngleReport apply_contact_angle(Drop& drop, const std::vector<Solid>& sol
   kick.resize(n);
   for (std::uint32_t v = 0; v < n; ++v) report.line += contact[v] == Contact::line;
   if (report.line == 0) return report;
-  const double sharp_turn = largest_turn(report.line);
+  const double cos_sharp_turn = std::cos(std::min(largest_turn(report.line), pi));
+  std::int32_t last_solid = -1;
+  SolidAngles angles{0, 0, Vector3d::Zero()};
   std::vector<Vector3d> middles;
   std::vector<std::uint32_t> sharp;
   for (std::uint32_t v = 0; v < n; ++v) {
     if (contact[v] != Contact::line) continue;
     kick[v].setZero();
-    const Solid& solid = solids[drop.contact_solid()[v]];
+    const std::int32_t s = drop.contact_solid()[v];
+    const Solid& solid = solids[s];
+    if (s != last_solid)
+      angles = {std::cos(solid.advancing_angle), std::cos(solid.receding_angle), solid.velocity(time)};
+    last_solid = s;
     const auto line = solid.inflow ? std::nullopt : contact_line_vertex(drop, v);
     if (!line) continue;
     if (options.force == ContactForce::measured_angle) {
       kick[v] = measured_angle_kick(*line, solid.receding_angle, solid.advancing_angle, options.boundary_force);
-      report.advancing += line->angle > solid.advancing_angle;
-      report.receding += line->angle < solid.receding_angle;
+      report.advancing += line->angle() > solid.advancing_angle;
+      report.receding += line->angle() < solid.receding_angle;
     } else {
-      const double force = unbalanced_length(*line, solid, options.body_pressure.at(drop.positions().col(v)));
-      const Vector3d slip = drop.velocities().col(v) - solid.velocity(time);
+      const double force = unbalanced_length(*line, angles, options.body_pressure.at(drop.positions().col(v)));
+      const Vector3d slip = drop.velocities().col(v) - angles.velocity;
       kick[v] = virtual_work_kick(*line, force, slip, geometry.lumped_area(v), dt, options);
       report.advancing += force > 0;
       report.receding += force < 0;
-      if (line->turn > sharp_turn) {
+      if (line->turn_cosine < cos_sharp_turn) {
         middles.push_back(line->middle);
         sharp.push_back(v);
       }

@@ -5,7 +5,6 @@
 #include "meniscus/core/error.h"
 #include "meniscus/geometry/flow_matrix.h"
 #include "meniscus/operators/collision_constraint.h"
-#include "meniscus/state/free_rigid_motion.h"
 
 #include <fmt/format.h>
 
@@ -29,9 +28,8 @@ struct Largest {
   }
 };
 
-/// The explicit change eta dt Lap(u), u the velocity without the rigid motion, into workspace.solution: about a ring,
-/// sum w (u_k - u_i) = sum w (v_k - v_i) + rotation x area_gradient. Returns the largest eta dt L_ii / M_ii.
-double explicit_change(Drop& drop, const SurfaceGeometry& geometry, double step, const Vector3d& rotation) {
+/// The explicit change eta dt Lap(v) into workspace.solution. Returns the largest eta dt L_ii / M_ii.
+double explicit_change(Drop& drop, const SurfaceGeometry& geometry, double step) {
   constexpr int width = Connectivity::width;
   const Connectivity& connectivity = drop.connectivity();
   const ConstColumns v = std::as_const(drop).velocities();
@@ -45,7 +43,7 @@ double explicit_change(Drop& drop, const SurfaceGeometry& geometry, double step,
     const double* const weight = ring.degree > width ? weights.long_weight[connectivity.long_ring(i)].data()
                                                      : &weights.weight[width * std::size_t{i}];
     const Vector3d own = v.col(i);
-    Vector3d sum = rotation.cross(geometry.area_gradient(i));
+    Vector3d sum = Vector3d::Zero();
     double stiffness = 0;
     for (int k = 0; k < ring.degree; ++k) {
       const double w = std::max(weight[k], 0.0);
@@ -65,16 +63,15 @@ double explicit_change(Drop& drop, const SurfaceGeometry& geometry, double step,
       .value;
 }
 
-/// The change of velocity by viscosity over the step, eta dt Lap(u), into workspace.solution.
-DampingReport viscous_change(Drop& drop, const SurfaceGeometry& geometry, const RigidMotion& rigid, double dt,
-                             const DampingOptions& options) {
+/// The change of velocity by viscosity over the step, eta dt Lap(v), into workspace.solution.
+DampingReport viscous_change(Drop& drop, const SurfaceGeometry& geometry, double dt, const DampingOptions& options) {
   DampingReport report;
   Workspace& work = drop.workspace();
   const std::size_t n = drop.num_rows();
   work.rhs.resize(n);
   work.solution.resize(n);
   const double step = options.viscosity_coefficient * dt;
-  report.implicit = explicit_change(drop, geometry, step, rigid.rotation) > 0.5;
+  report.implicit = explicit_change(drop, geometry, step) > 0.5;
   if (!report.implicit) return report;
   assemble_flow_matrix(drop.connectivity(), geometry, step, true, work.matrix);
   for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
@@ -121,18 +118,15 @@ std::size_t smooth_poor_vertices(Drop& drop, Columns& v, double share) {
 DampingReport apply_damping(Drop& drop, const SurfaceGeometry& geometry, double dt, const DampingOptions& options) {
   DampingReport report;
   Columns v = drop.velocities();
-  const RigidMotion rigid = options.keep_rigid_motion ? free_rigid_motion(drop, geometry) : RigidMotion{};
   const bool viscous = options.viscosity_coefficient * dt > 0;
-  if (viscous) report = viscous_change(drop, geometry, rigid, dt, options);
+  if (viscous) report = viscous_change(drop, geometry, dt, options);
   const double taken = std::min(1.0, options.damping_rate * dt);
-  const ConstColumns x = std::as_const(drop).positions();
   if (viscous || taken > 0)
     for_each_chunk(drop.num_rows(), [&](std::size_t begin, std::size_t end) {
       for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
         if (drop.connectivity().degree(i) == 0) continue;
-        Vector3d change = Vector3d::Zero();
-        if (viscous) change = to_eigen(drop.workspace().solution[i]);
-        if (taken > 0) change -= taken * (v.col(i) - rigid.at(x.col(i)));
+        Vector3d change = -taken * v.col(i);
+        if (viscous) change += to_eigen(drop.workspace().solution[i]);
         v.col(i) += constrain_to_solid(drop, i, change);
       }
     });

@@ -75,6 +75,9 @@ class Collider {
         options_(options) {
     for (std::size_t s = 0; s < solids.size(); ++s)
       if (solids[s].is_near(box, time, options.touching_distance)) near_.push_back(s);
+    if (near_.size() != 1 || !options.no_slip) return;
+    const Solid& only = solids[near_[0]];
+    if (!only.inflow && only.offset(time) == only.offset(time - dt)) holder_ = static_cast<std::int32_t>(near_[0]);
   }
 
   /// Whether any vertex needs a look: some solid is near, or some vertex was on one.
@@ -83,6 +86,7 @@ class Collider {
   /// Eqs 1 and 2 at vertex i, which was in state `before` (`stays`: it cannot leave its solid).
   bool collide(std::uint32_t i, Contact before, bool stays) {
     std::int32_t& touched = drop_.contact_solid()[i];
+    if (stays && before == Contact::wetted && is_held(i, touched)) return true;
     if (!stays) touched = -1;
     bool colliding = stays && touched >= 0;
     if (colliding && solids_[touched].inflow) {
@@ -95,7 +99,7 @@ class Collider {
       SolidContact contact{0, Vector3d::Zero(), Vector3d::Zero()};
       for (const std::size_t s : near_) {
         if (colliding && static_cast<std::int32_t>(s) == touched) continue;
-        if (!solids_[s].is_near(Eigen::AlignedBox3d(Vector3d(x_.col(i))), time_, options_.touching_distance)) continue;
+        if (!solids_[s].is_near(Vector3d(x_.col(i)), time_, options_.touching_distance)) continue;
         const SolidContact candidate = solids_[s].query(x_.col(i), time_);
         if (candidate.distance <= options_.touching_distance &&
             (deepest == solids_.size() || candidate.distance < contact.distance)) {
@@ -113,6 +117,9 @@ class Collider {
   }
 
  private:
+  /// Inside the wetted area of a solid at rest, without slip and with no other solid near, a vertex stands still.
+  bool is_held(std::uint32_t i, std::int32_t touched) const { return touched == holder_ && v_.col(i).isZero(0); }
+
   /// Where a vertex that stays on its solid is now. A contact line vertex goes no further than the normal turns
   /// by 30 degrees, so that it does not pass an edge without having been on it: there Gibbs's condition holds it.
   SolidContact follow(std::uint32_t i, const Solid& solid, Contact before) {
@@ -161,6 +168,7 @@ class Collider {
   Drop& drop_;
   const std::vector<Solid>& solids_;
   std::vector<std::size_t> near_;
+  std::int32_t holder_ = -2;  // the one solid that is near, if it is at rest and holds what is on it; else none
   Columns x_, v_, n_;
   double time_, dt_;
   const ExternalForcesOptions& options_;
@@ -199,7 +207,7 @@ void find_contact(Drop& drop, const std::vector<Solid>& solids, double time, dou
     double nearest = tolerance;
     for (std::size_t s = 0; s < solids.size(); ++s) {
       const Vector3d x = drop.positions().col(i);
-      if (!solids[s].is_near(Eigen::AlignedBox3d(x), time, tolerance)) continue;
+      if (!solids[s].is_near(x, time, tolerance)) continue;
       const SolidContact candidate = solids[s].query(x, time);
       if (candidate.distance > nearest) continue;
       nearest = candidate.distance;

@@ -47,7 +47,7 @@ void lift_films(Drop& drop, const std::vector<Solid>& solids, double time) {
     for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
       if (drop.connectivity().degree(v) == 0 || is_colliding(drop.contact()[v])) continue;
       const Vector3d x = drop.positions().col(v);
-      if (!solid.is_near(Eigen::AlignedBox3d(x), time, 0)) continue;
+      if (!solid.is_near(x, time, 0)) continue;
       const SolidContact below = solid.query(x, time);
       if (below.distance <= 0 && is_over_wetted_area(drop, v, below.point, below.normal))
         lift(drop, v, below.point, below.normal);

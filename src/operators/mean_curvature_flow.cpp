@@ -25,20 +25,31 @@ const std::uint8_t* fixed_rows(Drop& drop, ContactInFlow contact_in_flow) {
 
 SolveReport flow_by_mean_curvature(Drop& drop, const SurfaceGeometry& geometry, double dt,
                                    const MeanCurvatureFlowOptions& options) {
-  const double step = options.coefficient * dt;
+  const double step = options.coefficient * dt, viscous = options.viscosity * dt;
   const std::size_t n = drop.num_rows();
-  if (step == 0 || n == 0) return {};
+  if (step + viscous == 0 || n == 0) return {};
   Workspace& work = drop.workspace();
   work.rhs.resize(n);
   work.solution.resize(n);
   Columns x = drop.positions(), v = drop.velocities(), last = drop.displacements();
 
-  assemble_flow_matrix(drop.connectivity(), geometry, step, options.clamp_negative_weights, work.matrix);
-  curvature_right_hand_side(drop.connectivity(), work.matrix, x, work.rhs.data());
+  assemble_flow_matrix(drop.connectivity(), geometry, step + viscous, options.clamp_negative_weights, work.matrix);
+  if (viscous == 0) {
+    curvature_right_hand_side(drop.connectivity(), work.matrix, x, work.rhs.data());
+  } else {
+    const double of_x = step / (step + viscous), of_v = viscous * dt / (step + viscous);
+    for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+      for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i)
+        work.solution[static_cast<std::size_t>(i)] = to_lanes(of_x * x.col(i) + of_v * v.col(i));
+    });
+    weighted_differences(drop.connectivity(), work.matrix, work.solution.data(), work.rhs.data());
+  }
+  const Eigen::Vector3d turning = viscous * dt * options.rotation;
   const bool pressed = options.body_pressure.mean != 0 || !options.body_pressure.gradient.isZero(0);
   for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
     for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
       if (pressed) work.rhs[i] += to_lanes(step / 3 * options.body_pressure.at(x.col(i)) * geometry.area_vector(i));
+      if (viscous != 0) work.rhs[i] += to_lanes(turning.cross(geometry.area_gradient(i)));
       work.solution[i] = to_lanes(last.col(i));
     }
   });

@@ -41,7 +41,6 @@ struct PressureSurface {
   double air_area = 0, wet_area = 0;                      ///< cm^2
   double volume = 0;                                      ///< cm^3
   Eigen::Vector3d center = Eigen::Vector3d::Zero();       ///< of mass, cm
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();      ///< about it, over the density, cm^5
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< of a drop in flight, rad/s
   Eigen::Vector3d frame = Eigen::Vector3d::Zero();        ///< velocity of the solids that it sits on, cm/s
   Eigen::Vector3d wall_normal = Eigen::Vector3d::Zero();  ///< mean over the wetted area, out of the solid
@@ -67,8 +66,10 @@ void look_at_surface(Drop& drop, const std::vector<Solid>& solids, double time, 
 /// Fills surface.force: tension, gravity and rotation; in flight the drop as a whole falls by gravity exactly.
 void find_forces(const Drop& drop, const PressureOptions& options, PressureSurface& surface);
 
-/// The drop's centre of mass, volume and inertia about it (over the density).
+/// The drop's volume and centre of mass.
 void measure_solid(const ConstColumns& x, const Connectivity& connectivity, PressureSurface& surface);
+/// Its inertia, over the density (cm^5).
+Eigen::Matrix3d inertia_about(const Eigen::Vector3d& center, const ConstColumns& x, const Connectivity& connectivity);
 
 /// M q = (rho R/2)(W + stiffening L) q for the deformation, the liquid's own mass for motion as a whole,
 /// and friction on the line. Symmetric positive definite.

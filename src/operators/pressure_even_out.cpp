@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/core/chunks.h"
 #include "pressure_arrays.h"
 
 #include <algorithm>
@@ -99,23 +100,25 @@ void even_out(Drop& drop, const PressureOptions& options, double factor, double 
   std::vector<Vector3d>& shift = arrays.shift;
   shift.assign(n, Vector3d::Zero());
   carried = arrays.deformation;
-  for (std::uint32_t v = 0; v < n; ++v) {
-    const bool colliding = is_colliding(drop.contact()[v]);
-    const Role role = surface.role[v];
-    if (drop.connectivity().degree(v) <= 3) continue;  // a corner of a tetrahedron has no tangent plane
-    if (is_on_surface(role) && !colliding) {
-      const Vector3d normal = geometry.normal(v), way = to_centroid(drop, v);
-      shift[v] = factor * (way - way.dot(normal) * normal);
-    } else if (role == Role::line) {
-      shift[v] = line_shift(drop, surface, v, factor, sharp);
-    } else if (role == Role::wetted) {
-      const Vector3d normal = drop.contact_normals().col(v), way = to_centroid(drop, v);
-      shift[v] = factor * (way - way.dot(normal) * normal);
+  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+      const bool colliding = is_colliding(drop.contact()[v]);
+      const Role role = surface.role[v];
+      if (drop.connectivity().degree(v) <= 3) continue;  // a corner of a tetrahedron has no tangent plane
+      if (is_on_surface(role) && !colliding) {
+        const Vector3d normal = geometry.normal(v), way = to_centroid(drop, v);
+        shift[v] = factor * (way - way.dot(normal) * normal);
+      } else if (role == Role::line) {
+        shift[v] = line_shift(drop, surface, v, factor, sharp);
+      } else if (role == Role::wetted) {
+        const Vector3d normal = drop.contact_normals().col(v), way = to_centroid(drop, v);
+        shift[v] = factor * (way - way.dot(normal) * normal);
+      }
+      if (is_moving(role) && shift[v].squaredNorm() > small * small)
+        carried[v] += shift[v].dot(surface_gradient(drop, surface.wet_face, arrays.deformation, v));
+      if (is_on_surface(role) && !colliding) shift[v] += offset * geometry.normal(v);
     }
-    if (is_moving(role) && shift[v].squaredNorm() > small * small)
-      carried[v] += shift[v].dot(surface_gradient(drop, surface.wet_face, arrays.deformation, v));
-    if (is_on_surface(role) && !colliding) shift[v] += offset * geometry.normal(v);
-  }
+  });
   Columns x = drop.positions();
   for (std::uint32_t v = 0; v < n; ++v) x.col(v) += shift[v];
   arrays.deformation = carried;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/core/chunks.h"
 #include "pressure_arrays.h"
 
 namespace meniscus {
@@ -10,10 +11,12 @@ using Eigen::Vector3d;
 void find_heads(const Drop& drop, const PressureOptions& options, PressureSurface& surface) {
   const ConstColumns x = drop.positions();
   const double density = options.liquid.density;
-  for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
-    const Vector3d r = x.col(v) - surface.center;
-    surface.head[v] = -density * (options.gravity.dot(r) + 0.5 * surface.rotation.cross(r).squaredNorm());
-  }
+  for_each_chunk(drop.num_rows(), [&](std::size_t begin, std::size_t end) {
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+      const Vector3d r = x.col(v) - surface.center;
+      surface.head[v] = -density * (options.gravity.dot(r) + 0.5 * surface.rotation.cross(r).squaredNorm());
+    }
+  });
 }
 
 /// d(sigma A_air + E)/dx at v, E the integral of the head over the liquid: exact on each triangle for a
@@ -22,16 +25,19 @@ Vector3d energy_gradient(const Drop& drop, const PressureSurface& surface, doubl
   const ConstColumns x = drop.positions();
   const auto& faces = drop.workspace().geometry.faces();
   const Ring ring = drop.connectivity().ring(v);
+  const RingMatrix& stiffness = surface.stiffness;
+  const double* const weight = ring.degree > Connectivity::width
+                                   ? stiffness.long_weight[drop.connectivity().long_ring(v)].data()
+                                   : &stiffness.weight[Connectivity::width * std::size_t{v}];
   Vector3d area_gradient = Vector3d::Zero(), head_gradient = Vector3d::Zero();
   for (int k = 0; k < ring.degree; ++k) {
-    const std::uint32_t f = ring.corner[k] / 3, corner = ring.corner[k] - 3 * f;
-    if (surface.wet_face[f] != 0) continue;
+    const std::uint32_t f = ring.corner[k] / 3;
     const std::uint32_t p = ring.neighbour[k], q = ring.neighbour[k + 1 == ring.degree ? 0 : k + 1];
-    const FaceGeometry& face = faces[f];
-    area_gradient += 0.5 * (face.cotangent[(corner + 2) % 3] * (x.col(v) - x.col(p)) +
-                            face.cotangent[(corner + 1) % 3] * (x.col(v) - x.col(q)));
+    area_gradient += weight[k] * (x.col(v) - x.col(p));  // the weights are those of the air faces
+    if (surface.wet_face[f] != 0) continue;
     const double head = (2 * surface.head[v] + surface.head[p] + surface.head[q]) / 12;
-    head_gradient += head * Vector3d(face.area_vector[0], face.area_vector[1], face.area_vector[2]);
+    const auto& area_vector = faces[f].area_vector;
+    head_gradient += head * Vector3d(area_vector[0], area_vector[1], area_vector[2]);
   }
   return tension * area_gradient + head_gradient;
 }
@@ -49,11 +55,12 @@ void make_it_fall(const PressureOptions& options, PressureSurface& surface) {
 
 void find_forces(const Drop& drop, const PressureOptions& options, PressureSurface& surface) {
   find_heads(drop, options, surface);
-  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
-    surface.force[v] =
-        !is_moving(surface.role[v])
-            ? 0
-            : -surface.direction[v].dot(energy_gradient(drop, surface, options.liquid.surface_tension, v));
+  const double tension = options.liquid.surface_tension;
+  for_each_chunk(drop.num_rows(), [&](std::size_t begin, std::size_t end) {
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v)
+      surface.force[v] =
+          !is_moving(surface.role[v]) ? 0 : -surface.direction[v].dot(energy_gradient(drop, surface, tension, v));
+  });
   if (!surface.in_contact) make_it_fall(options, surface);
 }
 

@@ -13,6 +13,8 @@ using Eigen::Vector3d;
 
 /// In lengths of edge_min: what a vertex may move on its own, go into a solid, and be offset for the volume.
 constexpr double most_move = 0.5, most_depth = 0.2, most_offset = 0.05;
+/// A drop that turns by less in a substep (radians) keeps its rotation, whatever becomes of its shape.
+constexpr double least_turn = 1e-12;
 /// Vertices this near to a solid touch it (cm).
 constexpr double touching_distance = 1e-9;
 /// A patch on a solid smaller than this (in edge_min^2) comes off, if it shrinks and the drop rises: its
@@ -188,8 +190,7 @@ bool PressureStep::is_short_enough(double dt) const {
     for (std::uint32_t v = 0; v < surface.role.size(); ++v) {
       if (!is_on_surface(surface.role[v])) continue;
       const Vector3d end = motion.end(v);
-      if (solid.is_near(Eigen::AlignedBox3d(end), time_ + dt, 0) && solid.query(end, time_ + dt).distance < -deepest)
-        return false;
+      if (solid.is_near(end, time_ + dt, 0) && solid.query(end, time_ + dt).distance < -deepest) return false;
     }
   }
   return true;
@@ -201,6 +202,10 @@ PressureReport PressureStep::move() {
   const auto n = static_cast<std::uint32_t>(drop_.num_rows());
   if (n == 0 || !(surface.volume > 0)) return report_;
   const Motion motion(drop_, solids_, time_, dt_, arrays);
+  const bool turns = surface.rotation.norm() * dt_ > least_turn;  // on a solid it does not
+  const Matrix3d inertia_before =
+      turns ? inertia_about(surface.center, std::as_const(drop_).positions(), drop_.connectivity())
+            : Matrix3d(Matrix3d::Zero());
   arrays.shift.resize(n);
   for (std::uint32_t v = 0; v < n; ++v) arrays.shift[v] = motion.end(v);
   Columns x = drop_.positions();
@@ -208,14 +213,14 @@ PressureReport PressureStep::move() {
   let_go(drop_, solids_, options_, arrays);
   find_contact_anew(drop_, solids_, time_ + dt_);
 
-  const Vector3d angular_momentum = surface.inertia * surface.rotation;
   drop_.workspace().geometry.compute(std::as_const(drop_).positions(), drop_.connectivity());
   even_out(drop_, options_, options_.smoothing, volume_offset(drop_, options_.edge_min, surface), arrays);
   measure_solid(std::as_const(drop_).positions(), drop_.connectivity(), surface);
-  if (surface.in_contact || !(surface.inertia.determinant() > 0))
-    surface.rotation.setZero();
-  else
-    surface.rotation = surface.inertia.ldlt().solve(angular_momentum);
+  if (turns) {  // the angular momentum stays
+    const Matrix3d inertia = inertia_about(surface.center, std::as_const(drop_).positions(), drop_.connectivity());
+    surface.rotation = inertia.determinant() > 0 ? Vector3d(inertia.ldlt().solve(inertia_before * surface.rotation))
+                                                 : Vector3d(Vector3d::Zero());
+  }
   write_velocities(drop_, motion, arrays);
   report_.relative_volume_error = surface.volume / drop_.target_volume() - 1;
   return report_;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/core/chunks.h"
 #include "pressure_arrays.h"
 
 #include <Eigen/Eigenvalues>
@@ -28,19 +29,21 @@ void find_wet_faces(const Drop& drop, PressureSurface& surface) {
   const auto& faces = drop.workspace().geometry.faces();
   const Contact* contact = drop.contact();
   surface.wet_face.assign(triangles.size(), 0);
-  surface.air_area = surface.wet_area = 0;
-  Matrix3d spread = Matrix3d::Zero();
+  surface.air_area = drop.workspace().geometry.area();
+  surface.wet_area = 0;
   surface.wall_normal.setZero();
+  surface.in_contact = false;
+  surface.rigid.setIdentity();
+  surface.rigid_directions = 3;
+  if (!touches_solid(drop)) return;
+  Matrix3d spread = Matrix3d::Zero();
   for (std::size_t f = 0; f < triangles.size(); ++f) {
     const auto& [a, b, c] = triangles[f];
     if (a == Connectivity::removed) continue;
     const FaceGeometry& face = faces[f];
     const double area = face.area[0] + face.area[1] + face.area[2];
     const bool on_solid = is_colliding(contact[a]) && is_colliding(contact[b]) && is_colliding(contact[c]);
-    if (!on_solid || !(area_vector_of(face).dot(drop.contact_normals().col(a)) < 0)) {
-      surface.air_area += area;
-      continue;
-    }
+    if (!on_solid || !(area_vector_of(face).dot(drop.contact_normals().col(a)) < 0)) continue;
     surface.wet_face[f] = 1;
     surface.wet_area += area;
     const Vector3d normal = drop.contact_normals().col(a);
@@ -48,9 +51,8 @@ void find_wet_faces(const Drop& drop, PressureSurface& surface) {
     spread += area * normal * normal.transpose();
   }
   surface.in_contact = surface.wet_area > 0;
+  surface.air_area -= surface.wet_area;
   surface.wall_normal.normalize();
-  surface.rigid.setIdentity();
-  surface.rigid_directions = 3;
   if (!surface.in_contact) return;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(spread / surface.wet_area);  // eigenvalues increase
   surface.rigid_directions = 0;
@@ -97,6 +99,20 @@ RingSums ring_sums(const Drop& drop, const std::vector<std::uint8_t>& wet_face, 
   return sums;
 }
 
+/// The same for a vertex off solids, none of whose faces is wet: the geometry has it all.
+RingSums ring_sums_off_solids(const Drop& drop, std::uint32_t v, double* weight) {
+  const SurfaceGeometry& geometry = drop.workspace().geometry;
+  const int degree = drop.connectivity().degree(v);
+  const RingMatrix& edges = geometry.edge_weights();
+  const double* const from = degree > Connectivity::width ? edges.long_weight[drop.connectivity().long_ring(v)].data()
+                                                          : &edges.weight[Connectivity::width * std::size_t{v}];
+  RingSums sums;
+  sums.air_vector = geometry.area_vector(v);
+  sums.air_area = 3 * geometry.lumped_area(v);
+  std::copy_n(from, degree, weight);
+  return sums;
+}
+
 Role role_of(const RingSums& sums, int degree, bool is_colliding, double line_length) {
   if (sums.wet_faces == degree) return Role::wetted;
   if (!(sums.air_vector.squaredNorm() > 0)) return Role::pinned;
@@ -121,10 +137,11 @@ void look_at_vertex(const Drop& drop, std::uint32_t v, PressureSurface& surface)
     long_row.resize(static_cast<std::size_t>(ring.degree));
     weight = long_row.data();
   }
-  const RingSums sums = ring_sums(drop, surface.wet_face, v, weight);
+  const bool colliding = is_colliding(drop.contact()[v]);
+  const RingSums sums =
+      colliding ? ring_sums(drop, surface.wet_face, v, weight) : ring_sums_off_solids(drop, v, weight);
   for (int k = 0; k < ring.degree; ++k) surface.stiffness.diagonal[v] += weight[k];
 
-  const bool colliding = is_colliding(drop.contact()[v]);
   const Vector3d wall = drop.contact_normals().col(v);
   const Vector3d along =
       colliding ? Vector3d(sums.wet_gradient - sums.wet_gradient.dot(wall) * wall) : Vector3d(Vector3d::Zero());
@@ -147,28 +164,65 @@ void look_at_vertex(const Drop& drop, std::uint32_t v, PressureSurface& surface)
   surface.mass[v] = std::max(surface.volume_gradient[v], least_mass * sums.air_area / 3);
 }
 
+/// The normal equations of tangential_rotation. A motion U + rotation x r has the part P (U + rotation x r) along the
+/// surface, P = I - n n^T; with R = -[r]x and q = R^T n = r x n their blocks are sums of m P, m P R = m (R - n q^T) and
+/// m R^T P R = m (|r|^2 I - r r^T - q q^T).
+struct TangentialFit {
+  double mass = 0, squares = 0;  // sums of m and m |r|^2
+  Vector3d arm = Vector3d::Zero(), momentum = Vector3d::Zero(), angular_momentum = Vector3d::Zero();
+  Matrix3d nn = Matrix3d::Zero(), nq = Matrix3d::Zero(), rr_qq = Matrix3d::Zero();
+
+  void add(double m, const Vector3d& r, const Vector3d& n, const Vector3d& velocity) {
+    const Vector3d q = r.cross(n), along = velocity - velocity.dot(n) * n;
+    mass += m;
+    squares += m * r.squaredNorm();
+    arm += m * r;
+    momentum += m * along;
+    angular_momentum += m * r.cross(along);
+    nn += (m * n) * n.transpose();
+    nq += (m * n) * q.transpose();
+    rr_qq += (m * r) * r.transpose() + (m * q) * q.transpose();
+  }
+  TangentialFit& operator+=(const TangentialFit& other) {
+    mass += other.mass;
+    squares += other.squares;
+    arm += other.arm;
+    momentum += other.momentum;
+    angular_momentum += other.angular_momentum;
+    nn += other.nn;
+    nq += other.nq;
+    rr_qq += other.rr_qq;
+    return *this;
+  }
+  Vector3d rotation() const {
+    Matrix3d R;
+    R << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
+    Eigen::Matrix<double, 6, 6> A;
+    A.topLeftCorner<3, 3>() = mass * Matrix3d::Identity() - nn;
+    A.topRightCorner<3, 3>() = R - nq;
+    A.bottomLeftCorner<3, 3>() = A.topRightCorner<3, 3>().transpose();
+    A.bottomRightCorner<3, 3>() = squares * Matrix3d::Identity() - rr_qq;
+    Eigen::Matrix<double, 6, 1> b;
+    b << momentum, angular_momentum;
+    return A.ldlt().solve(b).tail<3>();
+  }
+};
+
 /// The rotation whose field, with a translation, is nearest to the velocities along the surface: of a
 /// velocity U + rotation x r + u n it is the exact rotation, whatever u.
 Vector3d tangential_rotation(const Drop& drop, const Vector3d& center) {
-  using Matrix6d = Eigen::Matrix<double, 6, 6>;
-  using Vector6d = Eigen::Matrix<double, 6, 1>;
   const SurfaceGeometry& geometry = drop.workspace().geometry;
   const ConstColumns x = drop.positions(), velocity = drop.velocities();
   const double length = std::sqrt(geometry.area());
-  Matrix6d A = Matrix6d::Zero();
-  Vector6d b = Vector6d::Zero();
   if (!(length > 0)) return Vector3d::Zero();
-  for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
-    if (drop.connectivity().degree(v) == 0) continue;
-    const Vector3d r = (x.col(v) - center) / length, n = geometry.normal(v);
-    Eigen::Matrix<double, 3, 6> field;  // I, -[r]x: columns are the fields of unit motions
-    field.leftCols<3>().setIdentity();
-    field.rightCols<3>() << 0, r.z(), -r.y(), -r.z(), 0, r.x(), r.y(), -r.x(), 0;
-    const Eigen::Matrix<double, 3, 6> along = field - n * (n.transpose() * field);
-    A.noalias() += geometry.lumped_area(v) * along.transpose() * along;
-    b.noalias() += geometry.lumped_area(v) * along.transpose() * velocity.col(v);
-  }
-  const Vector3d rotation = A.ldlt().solve(b).tail<3>() / length;
+  const TangentialFit fit = sum_over_chunks(drop.num_rows(), TangentialFit{}, [&](std::size_t begin, std::size_t end) {
+    TangentialFit part;
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v)
+      if (drop.connectivity().degree(v) > 0)
+        part.add(geometry.lumped_area(v), (x.col(v) - center) / length, geometry.normal(v), velocity.col(v));
+    return part;
+  });
+  const Vector3d rotation = fit.rotation() / length;
   return rotation.allFinite() ? rotation : Vector3d(Vector3d::Zero());
 }
 
@@ -202,27 +256,67 @@ PressureArrays& pressure_arrays(Drop& drop) {
   return *arrays;
 }
 
+namespace {
+
+/// Integrals over a body: six volumes, 24 first moments and, where asked for, 120 second moments (x^2, y^2, z^2; yz,
+/// zx, xy) of the part between an origin and a surface.
+struct Moments {
+  double volume = 0;
+  Vector3d first = Vector3d::Zero(), squares = Vector3d::Zero(), products = Vector3d::Zero();
+
+  Moments& operator+=(const Moments& other) {
+    volume += other.volume;
+    first += other.first;
+    squares += other.squares;
+    products += other.products;
+    return *this;
+  }
+  void add_second(double w, const Vector3d& r) {
+    squares += w * r.cwiseAbs2();
+    products += w * Vector3d(r.y() * r.z(), r.z() * r.x(), r.x() * r.y());
+  }
+  Matrix3d second() const {
+    Matrix3d m;
+    m << squares.x(), products.z(), products.y(), products.z(), squares.y(), products.x(), products.y(), products.x(),
+        squares.z();
+    return m / 120;
+  }
+};
+
+template <bool with_second>
+Moments moments_about(const Vector3d& origin, const ConstColumns& x, const Connectivity& connectivity) {
+  const auto& triangles = connectivity.triangles();
+  return sum_over_chunks(triangles.size(), Moments{}, [&](std::size_t begin, std::size_t end) {
+    Moments part;
+    for (std::size_t f = begin; f < end; ++f) {
+      const auto& [i, j, k] = triangles[f];
+      if (i == Connectivity::removed) continue;
+      const Vector3d a = x.col(i) - origin, b = x.col(j) - origin, c = x.col(k) - origin, sum = a + b + c;
+      const double w = a.dot(b.cross(c));
+      part.volume += w;
+      part.first += w * sum;
+      if constexpr (with_second)
+        for (const Vector3d* r : {&a, &b, &c, &sum}) part.add_second(w, *r);
+    }
+    return part;
+  });
+}
+
+}  // namespace
+
 void measure_solid(const ConstColumns& x, const Connectivity& connectivity, PressureSurface& surface) {
   surface.volume = 0;
   surface.center.setZero();
-  surface.inertia.setZero();
   if (x.cols() == 0) return;
   const Vector3d origin = x.col(0);
-  Vector3d first = Vector3d::Zero();
-  Matrix3d second = Matrix3d::Zero();  // integrals of r and r r^T, r from the origin
-  for (const auto& [i, j, k] : connectivity.triangles()) {
-    if (i == Connectivity::removed) continue;
-    const Vector3d a = x.col(i) - origin, b = x.col(j) - origin, c = x.col(k) - origin, sum = a + b + c;
-    const double six_volumes = a.dot(b.cross(c));
-    surface.volume += six_volumes / 6;
-    first += six_volumes / 24 * sum;
-    second += six_volumes / 120 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
-  }
-  if (!(surface.volume > 0)) return;
-  const Vector3d r = first / surface.volume;
-  surface.center = origin + r;
-  second -= surface.volume * r * r.transpose();
-  surface.inertia = second.trace() * Matrix3d::Identity() - second;
+  const Moments moments = moments_about<false>(origin, x, connectivity);
+  surface.volume = moments.volume / 6;
+  if (surface.volume > 0) surface.center = origin + moments.first / (24 * surface.volume);
+}
+
+Matrix3d inertia_about(const Vector3d& center, const ConstColumns& x, const Connectivity& connectivity) {
+  const Matrix3d second = moments_about<true>(center, x, connectivity).second();
+  return second.trace() * Matrix3d::Identity() - second;
 }
 
 void look_at_surface(Drop& drop, const std::vector<Solid>& solids, double time, PressureArrays& arrays) {
@@ -232,21 +326,26 @@ void look_at_surface(Drop& drop, const std::vector<Solid>& solids, double time, 
   drop.workspace().geometry.compute(std::as_const(drop).positions(), drop.connectivity());
   measure_solid(std::as_const(drop).positions(), drop.connectivity(), surface);
   find_wet_faces(drop, surface);
-  for (std::uint32_t v = 0; v < n; ++v) look_at_vertex(drop, v, surface);
+  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) look_at_vertex(drop, v, surface);
+  });
   find_frame(drop, solids, time, surface);
   surface.rotation = surface.in_contact ? Vector3d(Vector3d::Zero()) : tangential_rotation(drop, surface.center);
 
   arrays.speed_old.assign(n, 0);
   const ConstColumns x = drop.positions(), velocity = drop.velocities();
-  for (std::uint32_t v = 0; v < n; ++v) {
-    if (is_on_surface(surface.role[v])) {
-      const Vector3d turning = surface.rotation.cross(Vector3d(x.col(v)) - surface.center);
-      arrays.speed_old[v] = (velocity.col(v) - surface.frame - turning).dot(surface.direction[v]);
-    } else if (surface.role[v] == Role::line) {
-      const Vector3d slip = velocity.col(v) - solids[static_cast<std::size_t>(drop.contact_solid()[v])].velocity(time);
-      arrays.speed_old[v] = surface.slant[v] * surface.slant[v] * slip.dot(surface.direction[v]);
+  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+      if (is_on_surface(surface.role[v])) {
+        const Vector3d turning = surface.rotation.cross(Vector3d(x.col(v)) - surface.center);
+        arrays.speed_old[v] = (velocity.col(v) - surface.frame - turning).dot(surface.direction[v]);
+      } else if (surface.role[v] == Role::line) {
+        const Vector3d slip =
+            velocity.col(v) - solids[static_cast<std::size_t>(drop.contact_solid()[v])].velocity(time);
+        arrays.speed_old[v] = surface.slant[v] * surface.slant[v] * slip.dot(surface.direction[v]);
+      }
     }
-  }
+  });
 }
 
 }  // namespace meniscus

@@ -2,7 +2,6 @@
 #include "meniscus/operators/tangential_damping.h"
 
 #include "meniscus/core/chunks.h"
-#include "meniscus/state/free_rigid_motion.h"
 
 #include <algorithm>
 
@@ -28,10 +27,9 @@ void restore_rigid_motion(Drop& drop, const RigidMotion& before, const RigidMoti
 
 }  // namespace
 
-void remove_tangential_deformation(Drop& drop, const SurfaceGeometry& geometry, double dt) {
+void remove_tangential_deformation(Drop& drop, const SurfaceGeometry& geometry, const RigidMotion& rigid, double dt) {
   const Contact* contact = drop.contact();
   const bool in_flight = !touches_solid(drop);
-  const RigidMotion rigid = free_rigid_motion(drop, geometry);
   Columns x = drop.positions(), v = drop.velocities();
   const RigidMotionFit none(fit_origin(x, geometry));
   const RigidMotionFit after = sum_over_chunks(drop.num_rows(), none, [&](std::size_t begin, std::size_t end) {

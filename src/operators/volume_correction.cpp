@@ -110,9 +110,8 @@ void correct_globally(Drop& drop, const SurfaceGeometry& geometry, double dt, do
     }
     return part;
   });
-  const double area = flow.area, flowed = flow.volume;
-  const double target = drop.target_volume(), expected = area > 0 ? -flowed / area : 0;
-  const VolumeOffset moved = offset_to_volume(drop, geometry, target, expected - limit, expected + limit);
+  const double area = flow.area, target = drop.target_volume(), expected = area > 0 ? -flow.volume / area : 0;
+  const VolumeOffset moved = offset_to_volume(drop, geometry, area, target, expected - limit, expected + limit);
   report.relative_error_before = moved.error_before / target;
   report.relative_error = moved.error / target;
   report.offset = moved.offset;

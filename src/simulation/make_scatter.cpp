@@ -56,7 +56,7 @@ bool is_free(const BoundingBall& ball, double gap, const Solid* own, const std::
   for (const BoundingBall& other : taken)
     if (ball.is_near(other, gap)) return false;
   for (const Solid& solid : solids)
-    if (&solid != own && solid.is_near(Eigen::AlignedBox3d(ball.center), 0, ball.radius) &&
+    if (&solid != own && solid.is_near(ball.center, 0, ball.radius) &&
         solid.query(ball.center, 0).distance < ball.radius)
       return false;
   return true;

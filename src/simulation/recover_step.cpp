@@ -2,17 +2,15 @@
 #include "recover_step.h"
 
 #include "meniscus/core/error.h"
+#include "meniscus/topology/face_changes.h"
 
 #include <fmt/format.h>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 
 namespace meniscus {
 namespace {
-
-using Eigen::Vector3d;
 
 constexpr double most_turned = 0.05;        // share of the surface
 constexpr double most_growth = 2;           // of the surface
@@ -61,59 +59,27 @@ void recurse(Drop& drop, double time, double dt, const StepOptions& options, Ste
 
 }  // namespace
 
-void KeptState::keep(Drop& drop) {
-  const std::size_t n = drop.num_rows();
-  positions_ = drop.positions();
-  velocities_ = drop.velocities();
-  displacements_ = drop.displacements();
-  contact_normals_ = drop.contact_normals();
-  contact_.assign(drop.contact(), drop.contact() + n);
-  contact_solid_.assign(drop.contact_solid(), drop.contact_solid() + n);
-  line_status_.assign(drop.line_statuses(), drop.line_statuses() + n);
-  target_volume_ = drop.target_volume();
-}
-
-void KeptState::restore(Drop& drop) const {
-  drop.positions() = positions_;
-  drop.velocities() = velocities_;
-  drop.displacements() = displacements_;
-  drop.contact_normals() = contact_normals_;
-  std::copy(contact_.begin(), contact_.end(), drop.contact());
-  std::copy(contact_solid_.begin(), contact_solid_.end(), drop.contact_solid());
-  std::copy(line_status_.begin(), line_status_.end(), drop.line_statuses());
-  drop.set_target_volume(target_volume_);
-}
-
-std::string blow_up(const Drop& drop, const Eigen::Matrix3Xd& before) {
-  const ConstColumns x = drop.positions();
-  if (!x.allFinite() || !drop.velocities().allFinite()) return "a position or velocity is not finite";
-  double turned = 0, area_now = 0, area_then = 0, volume_now = 0, volume_then = 0;
-  for (const auto& [a, b, c] : drop.connectivity().triangles()) {
-    if (a == Connectivity::removed) continue;
-    const Vector3d p = x.col(a), q = before.col(a);
-    const Vector3d now = (x.col(b) - p).cross(x.col(c) - p), then = (before.col(b) - q).cross(before.col(c) - q);
-    const double size = now.norm();
-    area_now += size;
-    area_then += then.norm();
-    volume_now += now.dot(p) / 6;
-    volume_then += then.dot(q) / 6;
-    if (now.dot(then) < 0) turned += size;
-  }
-  if (turned > most_turned * area_now)
-    return fmt::format("{:.0f} % of the surface turned over", 100 * turned / area_now);
-  if (area_now > most_growth * area_then) return fmt::format("the surface grew {:.2g} times", area_now / area_then);
+std::string blow_up(Drop& drop, const Eigen::Matrix3Xd& before) {
+  const FaceChanges changes = find_face_changes(drop, before, drop.workspace().violent_faces);
+  if (!std::isfinite(changes.volume) || !drop.velocities().allFinite())
+    return "a position or velocity is not finite";
+  if (changes.turned_area > most_turned * changes.area)
+    return fmt::format("{:.0f} % of the surface turned over", 100 * changes.turned_area / changes.area);
+  if (changes.area > most_growth * changes.area_before)
+    return fmt::format("the surface grew {:.2g} times", changes.area / changes.area_before);
   const double target = drop.target_volume();
-  const double off = (std::abs(volume_now - target) - std::abs(volume_then - target)) / target;
+  const double off = (std::abs(changes.volume - target) - std::abs(changes.volume_before - target)) / target;
   if (off > most_volume_change) return fmt::format("the volume went off by {:.0f} %", 100 * off);
   return {};
 }
 
-KeptState deform_or_recover(Drop& drop, double time, double dt, const StepOptions& options, StepReport& report,
-                            const Deform& deform) {
-  KeptState kept;
+void deform_or_recover(Drop& drop, double time, double dt, const StepOptions& options, StepReport& report,
+                       const Deform& deform) {
+  KeptState& kept = drop.workspace().kept;
   kept.keep(drop);
+  const std::size_t recoveries = report.recoveries;
   recurse(drop, time, dt, options, report, deform, kept, 0);
-  return kept;
+  if (report.recoveries > recoveries) find_face_changes(drop, kept.positions(), drop.workspace().violent_faces);
 }
 
 }  // namespace meniscus

@@ -9,40 +9,24 @@
 
 namespace meniscus {
 
-/// What operators write of a drop, kept so that a bad substep can be taken back: they never change elements, so
-/// flat copies do. Allocates nothing while the number of rows stands.
-class KeptState {
- public:
-  void keep(Drop& drop);
-  /// Precondition: the drop's elements are those of the last keep().
-  void restore(Drop& drop) const;
-  const Eigen::Matrix3Xd& positions() const { return positions_; }
-
- private:
-  Eigen::Matrix3Xd positions_, velocities_, displacements_, contact_normals_;
-  std::vector<Contact> contact_;
-  std::vector<std::int32_t> contact_solid_;
-  std::vector<std::uint8_t> line_status_;
-  double target_volume_ = 0;
-};
-
 /// Why a drop is not fit to go on after its operators ran, or "" if it is:
 /// - a position or velocity is not finite,
 /// - more than a twentieth of the surface turned over: faces whose normal turned by more than 90 degrees since
 ///   `before`,
 /// - the surface is more than twice what it was,
 /// - the volume went off its target by more than half of that since `before`.
-/// The limits are far above what any sound substep does (docs/MODELS.md). One pass over faces.
-std::string blow_up(const Drop& drop, const Eigen::Matrix3Xd& before);
+/// The limits are far above what any sound substep does (docs/MODELS.md). One pass over faces, which marks violent ones
+/// in workspace().violent_faces (find_face_changes).
+std::string blow_up(Drop& drop, const Eigen::Matrix3Xd& before);
 
 /// The operators of a substep: moves the drop from time - dt to time.
 using Deform = std::function<void(Drop& drop, double time, double dt, const StepOptions& options, StepReport& report)>;
 
 /// Runs `deform`; if the drop blew up or it threw NumericsError, takes the drop back and goes the same way in two
 /// halves, each likewise, down to 1/64, and counts that in report.recoveries. At Level::paper gamma and alpha are per
-/// step: halves get half of them, so that the acceleration stays. Returns what the drop was at the start.
-/// Throws NumericsError when 1/64 fails too.
-KeptState deform_or_recover(Drop& drop, double time, double dt, const StepOptions& options, StepReport& report,
-                            const Deform& deform);
+/// step: halves get half of them, so that the acceleration stays. What the drop was at the start is then in
+/// workspace().kept, and the faces that are violent since then are marked. Throws NumericsError when 1/64 fails too.
+void deform_or_recover(Drop& drop, double time, double dt, const StepOptions& options, StepReport& report,
+                       const Deform& deform);
 
 }  // namespace meniscus

@@ -36,6 +36,13 @@ Simulation::Simulation(const Scene& scene, std::vector<Drop> drops)
   }
 }
 
+namespace {
+
+/// Up to this many rows a drop borrows its working arrays: those of all drops together would fill the cache.
+constexpr std::size_t most_rows_to_lend_to = 16384;
+
+}  // namespace
+
 StepReport Simulation::step() {
   const double target_volume_before = target_volume(), start = time_;
   ++num_steps_;
@@ -96,8 +103,14 @@ std::vector<Drop> Simulation::step_cluster(std::vector<Drop> drops, int substeps
         continue;
       }
       StepReport of_drop;
+      if (drop.num_rows() <= most_rows_to_lend_to && drops_.size() > 1) {
+        Workspace& workspace = workspaces_.local();
+        workspace.solver.forget();
+        drop.lend_workspace(&workspace);
+      }
       std::vector<Drop> pieces =
           step_drop(std::move(drop), solids_, time_ - k * dt, dt, options_, remeshers_.local(), of_drop);
+      for (Drop& piece : pieces) piece.lend_workspace(nullptr);
       report += of_drop;
       for (std::size_t p = 0; p < pieces.size(); ++p) {
         if (p > 0) pieces[p].set_id(no_id);

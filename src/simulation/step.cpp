@@ -11,6 +11,7 @@
 #include "meniscus/operators/tangential_damping.h"
 #include "meniscus/operators/volume_correction.h"
 #include "meniscus/state/contact_line.h"
+#include "meniscus/state/free_rigid_motion.h"
 #include "recover_step.h"
 #include "step_parts.h"
 
@@ -85,10 +86,7 @@ DampingOptions damping_options(const StepOptions& step) {
   if (step.level == Level::paper) {
     options.damping_rate = step.paper.damping_rate;
     options.viscosity_coefficient = step.paper.viscosity_coefficient;
-  } else {
-    options.viscosity_coefficient = viscosity_to_eta * step.liquid.viscosity;
-    options.keep_rigid_motion = true;
-  }
+  }  // else viscosity is part of the flow
   return options;
 }
 
@@ -97,7 +95,7 @@ DampingOptions damping_options(const StepOptions& step) {
 constexpr double least_flow_tolerance = 1e-4;
 
 MeanCurvatureFlowOptions flow_options(const StepOptions& step, const BodyPressure& pressure, double tension,
-                                      double dt) {
+                                      const RigidMotion& rigid, double dt) {
   MeanCurvatureFlowOptions options;
   options.solver = step.solver;
   if (step.level == Level::paper) {
@@ -106,6 +104,8 @@ MeanCurvatureFlowOptions flow_options(const StepOptions& step, const BodyPressur
   } else {
     options.coefficient = tension * dt;
     options.body_pressure = pressure;
+    options.viscosity = viscosity_to_eta * step.liquid.viscosity;
+    options.rotation = rigid.rotation;
     options.solver.tolerance = std::max(step.solver.tolerance, least_flow_tolerance);
   }
   return options;
@@ -190,6 +190,7 @@ void deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt
   clock.done(Stage::geometry);
 
   apply_damping(drop, geometry, dt, damping_options(options));
+  const RigidMotion rigid = free_rigid_motion(drop, geometry);
   clock.done(Stage::damping);
 
   // The paper moves the contact line after the flow; there the surface stands back by what the volume
@@ -200,11 +201,14 @@ void deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt
     report.skip(Stage::contact_angle);
   clock.done(Stage::contact_angle);
 
-  const SolveReport flow = flow_by_mean_curvature(drop, geometry, dt, flow_options(options, pressure, tension, dt));
+  const SolveReport flow =
+      flow_by_mean_curvature(drop, geometry, dt, flow_options(options, pressure, tension, rigid, dt));
   report.solver_iterations = std::max(report.solver_iterations, flow.iterations);
   clock.done(Stage::curvature_flow);
 
-  if (!jet) remove_tangential_deformation(drop, geometry, dt);
+  // The flow leaves the momentum of a drop in flight alone, not the line's motion.
+  if (!jet)
+    remove_tangential_deformation(drop, geometry, forces.colliding > 0 ? free_rigid_motion(drop, geometry) : rigid, dt);
   clock.done(Stage::damping);
 
   const VolumeCorrectionReport volume = correct_volume(drop, geometry, dt, volume_options(options, drop));
@@ -223,11 +227,13 @@ void deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt
 /// One substep: operators, remesh, split.
 std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                           const StepOptions& options, Remesher& remesher, StepReport& report) {
-  const KeptState kept = deform_or_recover(drop, time, dt, options, report,
-                                           [&](Drop& moving, double to, double step, const StepOptions& at,
-                                               StepReport& sum) { deform(moving, solids, to, step, at, sum); });
+  deform_or_recover(drop, time, dt, options, report,
+                    [&](Drop& moving, double to, double step, const StepOptions& at, StepReport& sum) {
+                      deform(moving, solids, to, step, at, sum);
+                    });
   StageClock clock(options.clock, report);
-  return remesh_and_split(std::move(drop), kept.positions(), options, remesher, clock, report);
+  const Eigen::Matrix3Xd& before = drop.workspace().kept.positions();
+  return remesh_and_split(std::move(drop), before, options, remesher, clock, report);
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, 
       arrived.push_back(std::move(traveller.drop));
       continue;
     }
-    KeptState kept;
+    KeptState& kept = traveller.drop.workspace().kept;
     kept.keep(traveller.drop);
     take_substep(traveller, solids, time, least_share * dt, options, kept, clock, report);
     report.substeps = std::max(report.substeps, traveller.substeps);

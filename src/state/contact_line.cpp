@@ -33,8 +33,8 @@ void mark_contact_line(Drop& drop) {
   for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
     if (contact[i] == Contact::free) continue;
     const Ring ring = drop.connectivity().ring(i);
-    for (int k = 0; k < ring.degree; ++k)
-      if (contact[ring.neighbour[k]] == Contact::free) contact[i] = Contact::line;
+    const auto is_free = [&](std::uint32_t neighbour) { return contact[neighbour] == Contact::free; };
+    if (std::any_of(ring.neighbour, ring.neighbour + ring.degree, is_free)) contact[i] = Contact::line;
   }
 }
 
@@ -44,21 +44,23 @@ std::optional<ContactLineVertex> contact_line_vertex(const Drop& drop, std::uint
   const Ring ring = drop.connectivity().ring(v);
   Vector3d wet_gradient = Vector3d::Zero(), air_gradient = Vector3d::Zero(), air_normal = Vector3d::Zero();
   ContactLineVertex line{};
-  const auto is_wet = [&](int k) {
-    const std::uint32_t a = ring.neighbour[k], b = ring.neighbour[k + 1 == ring.degree ? 0 : k + 1];
-    return is_wetted(drop, v, a, b, 0.5 * (x.col(a) - p).cross(x.col(b) - p));
-  };
   std::array<Vector3d, 2> ends{p, p};  // the neighbours on the line: where wet faces end and begin
   int num_ends = 0;
-  for (int k = 0, last = ring.degree - 1; k < ring.degree; last = k++)
-    if (is_wet(k) != is_wet(last) && num_ends++ < 2) ends[num_ends - 1] = x.col(ring.neighbour[k]);
+  bool was_wet = false, first_is_wet = false;
+  const auto end_at = [&](int k) {
+    if (num_ends++ < 2) ends[num_ends - 1] = x.col(ring.neighbour[k]);
+  };
   for (int k = 0; k < ring.degree; ++k) {
     const std::uint32_t a = ring.neighbour[k], b = ring.neighbour[k + 1 == ring.degree ? 0 : k + 1];
     const Vector3d opposite = x.col(b) - x.col(a);
     const Vector3d area_vector = 0.5 * (x.col(a) - p).cross(x.col(b) - p);
+    const bool wet = is_wetted(drop, v, a, b, area_vector);
+    if (k == 0) first_is_wet = wet;
+    if (k > 0 && wet != was_wet) end_at(k);
+    was_wet = wet;
     const double area = area_vector.norm();
     if (!(area > 0)) continue;
-    if (is_wet(k)) {
+    if (wet) {
       wet_gradient += 0.5 * opposite.cross(normal);  // of its area, at v, as far as it goes along the solid there
     } else {
       air_gradient += 0.5 / area * area_vector.cross(opposite);  // of its area, at v
@@ -66,14 +68,17 @@ std::optional<ContactLineVertex> contact_line_vertex(const Drop& drop, std::uint
       line.stiffness += stiffness_of(opposite, area);
     }
   }
+  if (first_is_wet != was_wet) end_at(0);
   line.length = wet_gradient.norm();
   if (!(line.length > 0) || !(air_normal.norm() > 0)) return std::nullopt;
   line.outward = wet_gradient / line.length;
-  line.angle = std::acos(std::clamp(air_normal.normalized().dot(normal), -1.0, 1.0));
+  line.angle_cosine = std::clamp(air_normal.normalized().dot(normal), -1.0, 1.0);
   line.volume_gradient = air_normal.dot(line.outward) / 3;
   line.energy_cosine = air_gradient.dot(line.outward) / line.length;
   line.middle = 0.5 * (ends[0] + ends[1]);
-  if (num_ends == 2) line.turn = std::atan2((p - ends[0]).cross(ends[1] - p).norm(), (p - ends[0]).dot(ends[1] - p));
+  const Vector3d to = p - ends[0], from = ends[1] - p;
+  const double lengths = to.norm() * from.norm();
+  line.turn_cosine = num_ends == 2 && lengths > 0 ? to.dot(from) / lengths : 1;
   return line;
 }
 
@@ -82,7 +87,7 @@ std::optional<double> mean_contact_angle(const Drop& drop) {
   for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
     if (drop.contact()[v] != Contact::line) continue;
     if (const auto line = contact_line_vertex(drop, v)) {
-      sum += line->length * line->angle;
+      sum += line->length * line->angle();
       length += line->length;
     }
   }

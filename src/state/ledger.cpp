@@ -134,7 +134,7 @@ void restore_ledger(Drop& drop, const Ledger& ledger, bool with_volume) {
   if (with_volume) {
     geometry.compute(std::as_const(drop).positions(), drop.connectivity());
     constexpr double unbounded = std::numeric_limits<double>::infinity();
-    offset_to_volume(drop, geometry, ledger.volume, -unbounded, unbounded);
+    offset_to_volume(drop, geometry, free_area(drop, geometry), ledger.volume, -unbounded, unbounded);
   }
   if (touches_solid(drop)) return;
   geometry.compute(std::as_const(drop).positions(), drop.connectivity());

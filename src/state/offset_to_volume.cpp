@@ -15,16 +15,20 @@ constexpr double volume_tolerance = 1e-12;
 
 }  // namespace
 
-VolumeOffset offset_to_volume(Drop& drop, const SurfaceGeometry& geometry, double volume, double least, double most) {
-  Columns x = drop.positions();
-  const auto n = static_cast<std::uint32_t>(drop.num_rows());
-  VolumeOffset report;
-  double area = sum_over_chunks(n, 0.0, [&](std::size_t begin, std::size_t end) {  // dV/dd
+double free_area(const Drop& drop, const SurfaceGeometry& geometry) {
+  return sum_over_chunks(drop.num_rows(), 0.0, [&](std::size_t begin, std::size_t end) {
     double part = 0;
     for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
       if (is_off_solids(drop, i)) part += geometry.area_vector(i).dot(geometry.normal(i)) / 3;
     return part;
   });
+}
+
+VolumeOffset offset_to_volume(Drop& drop, const SurfaceGeometry& geometry, double area, double volume, double least,
+                              double most) {
+  Columns x = drop.positions();
+  const auto n = static_cast<std::uint32_t>(drop.num_rows());
+  VolumeOffset report;
   report.error = report.error_before = drop.volume() - volume;
   if (!(area > 0)) return report;
   for (int round = 0; round < max_rounds && std::abs(report.error) > volume_tolerance * volume && !report.limited;

@@ -177,6 +177,12 @@ bool Solid::is_near(const Eigen::AlignedBox3d& box, double time, double margin) 
   return bounds_.translated(moved).exteriorDistance(box) <= margin;
 }
 
+bool Solid::is_near(const Vector3d& x, double time, double margin) const {
+  const Vector3d local = x - offset(time);
+  if (const auto* plane = std::get_if<Plane>(&shape_)) return plane->normal.dot(local - plane->point) <= margin;
+  return bounds_.exteriorDistance(local) <= margin;
+}
+
 SolidContact Solid::contact(const Plane& plane, const Vector3d& x) {
   const double distance = (x - plane.point).dot(plane.normal);
   return {distance, x - distance * plane.normal, plane.normal};

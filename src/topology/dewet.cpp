@@ -24,14 +24,17 @@ HalfedgeIndex line_edge(const RemeshState& state, FaceIndex f) {
   return Mesh::null_halfedge();
 }
 
-/// How high the apex of h lies over the solid, as the tangent planes at the ends of h tell; infinite where they differ:
-/// over an edge of the solid.
-double height_of_apex(const RemeshState& state, HalfedgeIndex h) {
+/// How high v lies over the solid, as the tangent planes at a and b tell; infinite where they differ: over an edge of
+/// the solid.
+double height_over(const RemeshState& state, VertexIndex v, VertexIndex a, VertexIndex b) {
   constexpr double same_direction = 0.97;
-  const auto a = state.mesh.source(h), b = state.mesh.target(h);
-  const Vector3d m = state.contact_normal(a), n = state.contact_normal(b), x = state.point(state.apex(h));
+  const Vector3d m = state.contact_normal(a), n = state.contact_normal(b), x = state.point(v);
   if (!(m.dot(n) > same_direction)) return std::numeric_limits<double>::infinity();
   return 0.5 * ((x - state.point(a)).dot(m) + (x - state.point(b)).dot(n));
+}
+
+double height_of_apex(const RemeshState& state, HalfedgeIndex h) {
+  return height_over(state, state.apex(h), state.mesh.source(h), state.mesh.target(h));
 }
 
 /// Far below the tangent plane is beside a solid that falls off there.
@@ -104,8 +107,12 @@ bool try_dewet(RemeshState& state, HalfedgeIndex h) {
 }  // namespace
 
 bool is_film(const RemeshState& state, FaceIndex f) {
-  const auto h = line_edge(state, f);
-  return h != Mesh::null_halfedge() && is_film_of(state, height_of_apex(state, h));
+  const auto& t = state.connectivity.triangles()[f];
+  for (int k = 0; k < 3; ++k) {  // most are far too high, and that is seen without a walk over the mesh
+    const VertexIndex apex(t[k]), a(t[(k + 1) % 3]), b(t[(k + 2) % 3]);
+    if (!state.colliding(apex) && !is_film_of(state, height_over(state, apex, a, b))) return false;
+  }
+  return line_edge(state, f) != Mesh::null_halfedge();
 }
 
 void dewet(RemeshState& state) {

@@ -68,7 +68,7 @@ bool would_meet_sheet(const RemeshState& state, HalfedgeIndex h) {
 Refusal try_flip(RemeshState& state, HalfedgeIndex h) {
   Mesh& mesh = state.mesh;
   const auto a = mesh.source(h), b = mesh.target(h), o = state.apex(h), p = state.apex(mesh.opposite(h));
-  if (!(cotangent_sum(state, h) < negative_weight)) return Refusal::not_wanted;
+  if (!(cotangent_sum(state, h) < state.options.flip_below)) return Refusal::not_wanted;
   if (o == p || are_neighbours(state, o, p)) return Refusal::link_condition;
   if (state.connectivity.degree(a) < 4 || state.connectivity.degree(b) < 4) return Refusal::valence;
   if (would_disturb_contact_line(state, h)) return Refusal::contact_line;

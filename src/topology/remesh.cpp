@@ -46,10 +46,50 @@ HalfedgeIndex halfedge_from(const Mesh& mesh, FaceIndex f, std::uint32_t source)
   return h;
 }
 
+/// How many faces have an angle under 30 degrees, do not face the solid that they are on, or hardly, and lie on it
+/// without liquid between.
+struct Found {
+  std::size_t sharp = 0, turned = 0, films = 0;
+
+  Found& operator+=(const Found& other) {
+    sharp += other.sharp;
+    turned += other.turned;
+    films += other.films;
+    return *this;
+  }
+};
+
+/// cotangent_sum, without a walk over the mesh: its elements are far from the cache.
+double cotangent_sum(const RemeshState& state, std::uint32_t u, std::uint32_t v) {
+  const Ring ring = state.connectivity.ring(u);
+  int k = 0;
+  while (ring.neighbour[k] != v) ++k;
+  const auto neighbour = [&](int place) { return VertexIndex(ring.neighbour[(place + ring.degree) % ring.degree]); };
+  return cotangent_sum(state, VertexIndex(u), VertexIndex(v), neighbour(k + 1), neighbour(k - 1));
+}
+
 /// The square of the length from which on an edge may have to be split.
 double least_long_edge2(const EdgeBand& band) {
   const double length = band.edge_max / band.refinement;
   return length * length;
+}
+
+/// Whether an edge of a wet face needs a look: it is out of the band, or the band's weight there is not plain to see.
+/// With no face turned over, both faces of an edge from inside the wetted area are wet.
+bool may_need_work(const RemeshState& state, std::uint32_t u, std::uint32_t v, double length2) {
+  const Contact* contact = state.drop.contact();
+  if (state.has_turned_faces || (contact[u] != Contact::wetted && contact[v] != Contact::wetted)) return true;
+  const double weighted2 = state.options.band.wetted_weight * state.options.band.wetted_weight * length2;
+  return state.is_long(weighted2) || state.is_short(weighted2);
+}
+
+/// The same for all edges of a wet face: none needs a look if this is false.
+bool may_wet_face_leave_band(const RemeshState& state, const std::array<std::uint32_t, 3>& t, const Sides& sides) {
+  const Contact* contact = state.drop.contact();
+  const double weight2 = state.options.band.wetted_weight * state.options.band.wetted_weight;
+  if (state.is_short(weight2 * sides.least) || state.is_long(weight2 * sides.greatest)) return true;
+  const auto is_on_line = [&](std::uint32_t v) { return contact[v] == Contact::line; };
+  return state.is_long(sides.greatest) && std::count_if(t.begin(), t.end(), is_on_line) >= 2;
 }
 
 /// Queues each edge that needs it once: from the face in which it runs to the larger index.
@@ -62,12 +102,10 @@ void inspect_face(RemeshState& state, FaceIndex f, const Sides& sides, bool is_w
   for (int k = 0; k < 3; ++k) {
     const auto u = t[(k + 1) % 3], v = t[(k + 2) % 3];
     const double length2 = sides.squared[k];
-    if (u < v && (is_wet || length2 < low2 || length2 > high2))
+    if (u < v && (is_wet ? may_need_work(state, u, v, length2) : length2 < low2 || length2 > high2))
       state.queue(state.mesh.edge(halfedge_from(state.mesh, f, u)));
-    if (sides.sum < 2 * length2) {  // obtuse at corner k
-      const auto h = halfedge_from(state.mesh, f, u);
-      if (cotangent_sum(state, h) < negative_weight) state.queue_flip(state.mesh.edge(h));
-    }
+    if (sides.sum < 2 * length2 && cotangent_sum(state, u, v) < state.options.flip_below)  // obtuse at corner k
+      state.queue_flip(state.mesh.edge(halfedge_from(state.mesh, f, u)));
   }
 }
 
@@ -132,29 +170,40 @@ void scan(RemeshState& state) {
   const auto sides_of = [&](const std::array<std::uint32_t, 3>& t) {
     return Sides(x.col(t[0]), x.col(t[1]), x.col(t[2]));
   };
+  const auto n = std::as_const(state.drop).contact_normals();
+  const auto is_turned = [&](const std::array<std::uint32_t, 3>& t, const Sides& sides) {
+    const Eigen::Vector3d a = x.col(t[0]), normal = (n.col(t[0]) + n.col(t[1]) + n.col(t[2])) / 3;
+    const Eigen::Vector3d twice_area = (x.col(t[1]) - a).cross(x.col(t[2]) - a);
+    return -0.5 * twice_area.dot(normal) < hardly_facing * sides.greatest;
+  };
   // All faces are looked at on all threads; the few that need more are inspected in their order.
   std::vector<std::uint8_t>& marked = state.scratch.marked_faces;
   marked.resize(triangles.size());
-  const auto num_sharp = sum_over_chunks(triangles.size(), std::size_t{0}, [&](std::size_t begin, std::size_t end) {
-    std::size_t sharp = 0;
+  const Found found = sum_over_chunks(triangles.size(), Found{}, [&](std::size_t begin, std::size_t end) {
+    Found part;
     for (std::size_t f = begin; f < end; ++f) {
       marked[f] = 0;
       const auto& t = triangles[f];
       if (t[0] == Connectivity::removed) continue;
       const Sides sides = sides_of(t);
-      sharp += sides.is_sharp();
-      marked[f] =
-          sides.least < low2 || sides.greatest > high2 || sides.is_obtuse() || sides.is_poor() || on_solid(t) >= 2;
+      const int colliding = on_solid(t);
+      part.sharp += sides.is_sharp();
+      part.turned += colliding == 3 && is_turned(t, sides);
+      part.films += colliding == 2 && is_film(state, FaceIndex(static_cast<std::uint32_t>(f)));
+      const bool may_leave_band =
+          colliding == 3 ? may_wet_face_leave_band(state, t, sides) : sides.least < low2 || sides.greatest > high2;
+      marked[f] = may_leave_band || sides.is_obtuse() || sides.is_poor();
     }
-    return sharp;
+    return part;
   });
-  state.has_sharp_angle = num_sharp > 0;
+  state.has_sharp_angle = found.sharp > 0;
+  state.has_turned_faces = found.turned > 0;
+  state.has_films = found.films > 0;
   for (std::uint32_t f = 0; f < triangles.size(); ++f) {
-    if (marked[f] == 0) continue;
+    if (triangles[f][0] == Connectivity::removed) continue;
     const bool wet = on_solid(triangles[f]) == 3;
-    state.has_films |= !wet && !state.has_films && on_solid(triangles[f]) == 2 && is_film(state, FaceIndex(f));
-    state.has_turned_faces |= wet && state.facing_solid(state.mesh.halfedge(FaceIndex(f))) < hardly_facing;
-    inspect_face(state, FaceIndex(f), sides_of(triangles[f]), wet);
+    if (marked[f] != 0 || (wet && state.has_turned_faces))
+      inspect_face(state, FaceIndex(f), sides_of(triangles[f]), wet);
   }
 }
 
@@ -216,7 +265,7 @@ RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOpt
   const bool rests = scratch.splits.empty() && scratch.collapses.empty() && scratch.flips.empty() &&
                      !state.has_turned_faces && !state.has_films;
   if (rests && (options.smoothing == 0 || !state.has_sharp_angle)) return state.report;
-  WatchedRegion watched = watched_region(drop, options.band.edge_max);
+  WatchedRegion watched = options.guard_everywhere ? WatchedRegion() : watched_region(drop, options.band.edge_max);
   if (!watched.empty()) scratch.guard.emplace(drop, std::move(watched), options.band.edge_max);
   run_passes(state);
   scratch.guard.reset();

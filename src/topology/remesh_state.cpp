@@ -179,16 +179,20 @@ void RemeshState::update_contact(VertexIndex v) {
   drop.contact()[v] = has_free_neighbour ? Contact::line : Contact::wetted;
 }
 
-double cotangent_sum(const RemeshState& state, HalfedgeIndex h) {
-  const Eigen::Vector3d a = state.point(state.mesh.source(h)), b = state.point(state.mesh.target(h));
-  const auto cotangent = [&](VertexIndex o) {
-    const Eigen::Vector3d u = a - state.point(o), w = b - state.point(o);
+double cotangent_sum(const RemeshState& state, VertexIndex from, VertexIndex to, VertexIndex o, VertexIndex p) {
+  const Eigen::Vector3d a = state.point(from), b = state.point(to);
+  const auto cotangent = [&](VertexIndex apex) {
+    const Eigen::Vector3d u = a - state.point(apex), w = b - state.point(apex);
     const double twice_area = u.cross(w).norm();
     return u.dot(w) / std::max(twice_area, 1e-12 * u.norm() * w.norm());
   };
-  const auto o = state.apex(h), p = state.apex(state.mesh.opposite(h));
   const double sum = cotangent(o) + cotangent(p);
   return std::isfinite(sum) ? sum : 0;
+}
+
+double cotangent_sum(const RemeshState& state, HalfedgeIndex h) {
+  const Mesh& mesh = state.mesh;
+  return cotangent_sum(state, mesh.source(h), mesh.target(h), state.apex(h), state.apex(mesh.opposite(h)));
 }
 
 }  // namespace meniscus

@@ -136,9 +136,6 @@ struct RemeshState {
   void update_contact(VertexIndex v);
 };
 
-/// Edges flip below this cot a + cot b: below zero, so that cocircular quadrangles rest.
-constexpr double negative_weight = -1e-4;
-
 /// A face of three colliding vertices whose facing_solid is less is turned over, or nearly so.
 constexpr double hardly_facing = 0.01;
 
@@ -150,6 +147,8 @@ constexpr double lift_in_edges = 0.02;
 
 /// (cot a + cot b) of the angles opposite to the edge: twice its weight.
 double cotangent_sum(const RemeshState& state, HalfedgeIndex h);
+/// The same for the edge between two vertices; o and p are the third corners of its faces.
+double cotangent_sum(const RemeshState& state, VertexIndex from, VertexIndex to, VertexIndex o, VertexIndex p);
 
 /// Fills the queues with what is out of the band or has a negative weight, and marks poor quality.
 void scan(RemeshState& state);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "boolean_parts.h"
 #include "face_grid.h"
-#include "meniscus/core/chunks.h"
 #include "merge_parts.h"
 
 #include <algorithm>
@@ -11,13 +10,6 @@ namespace meniscus {
 namespace {
 
 using Eigen::Vector3d;
-
-/// An edge that turns or stretches by more than this share of its length in a substep.
-constexpr double large_change = 0.5;
-
-bool changes_much(const Vector3d& before, const Vector3d& now) {
-  return !((now - before).squaredNorm() < large_change * large_change * before.squaredNorm());
-}
 
 /// Faces look at each other, or away from each other, if the cosine between their normals is below this.
 constexpr double opposite = -0.3;
@@ -71,34 +63,11 @@ void watch_close_sheets(Drop& drop, double reach) {
 
 }  // namespace
 
-void watch_violent_faces(Drop& drop, const Eigen::Matrix3Xd& before) {
-  const ConstColumns x = std::as_const(drop).positions(), n = std::as_const(drop).contact_normals();
-  const SurfaceGeometry& geometry = drop.workspace().geometry;
-  const auto& triangles = drop.connectivity().triangles();
-  const Contact* const contact = drop.contact();
-  const bool has_normals = geometry.faces().size() == triangles.size();
-  const auto may_fold_soon = [&](const Triangle& face) {
-    const auto [a, b, c] = face;
-    if (a == Connectivity::removed) return false;
-    const Vector3d p = before.col(b) - before.col(a), q = before.col(c) - before.col(a);
-    const Vector3d s = x.col(b) - x.col(a), t = x.col(c) - x.col(a), normal = s.cross(t);
-    if (changes_much(p, s) || changes_much(q, t) || changes_much(q - p, t - s) || !(p.cross(q).dot(normal) > 0))
-      return true;
-    if (is_colliding(contact[a]) && is_colliding(contact[b]) && is_colliding(contact[c]))
-      return !(normal.dot(n.col(a) + n.col(b) + n.col(c)) < 0);
-    return has_normals && std::any_of(face.begin(), face.end(), [&](std::uint32_t v) {
-             return !is_colliding(contact[v]) && normal.dot(geometry.normal(v)) < 0;
-           });
-  };
-  const auto count = sum_over_chunks(triangles.size(), std::size_t{0}, [&](std::size_t begin, std::size_t end) {
-    return static_cast<std::size_t>(std::count_if(triangles.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                  triangles.begin() + static_cast<std::ptrdiff_t>(end), may_fold_soon));
-  });
-  if (count == 0) return;
+void watch_faces(Drop& drop, const std::vector<std::uint8_t>& marked) {
   std::uint8_t* const watch = drop.seam_watch();
-  for (const Triangle& face : triangles)
-    if (may_fold_soon(face))
-      for (const auto v : face) watch[v] = std::max(watch[v], violent_watched_calls);
+  for (std::size_t f = 0; f < marked.size(); ++f)
+    if (marked[f] != 0)
+      for (const auto v : drop.connectivity().triangles()[f]) watch[v] = std::max(watch[v], violent_watched_calls);
 }
 
 bool may_fold(const Drop& drop, const MergeOptions& options) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/operators/damping.h"
 
-#include "meniscus/geometry/rigid_motion.h"
 #include "meniscus/geometry/shapes.h"
 
 #include <gtest/gtest.h>
@@ -77,23 +76,6 @@ TEST(Damping, LargeViscosityIsStable) {
   const DampingReport report = apply_damping(drop, geometry_of(drop), 1, options);
   EXPECT_TRUE(report.implicit);
   EXPECT_LE(drop.velocities().cwiseAbs().maxCoeff(), before);
-}
-
-TEST(Damping, RigidMotionIsLeftAloneIfAsked) {
-  Drop drop(make_ellipsoid({0.5, -1, 2}, {0.3, 0.2, 0.15}, 0.05));
-  RigidMotion motion;
-  motion.center = Vector3d(0.5, -1, 2);
-  motion.translation = Vector3d(1, 2, -3);
-  motion.rotation = Vector3d(4, -5, 6);
-  for (Eigen::Index i = 0; i < drop.positions().cols(); ++i)
-    drop.velocities().col(i) = motion.at(drop.positions().col(i));
-  const Eigen::Matrix3Xd v0 = drop.velocities();
-  DampingOptions options;
-  options.damping_rate = 30;
-  options.viscosity_coefficient = 0.3;
-  options.keep_rigid_motion = true;
-  apply_damping(drop, geometry_of(drop), 1e-2, options);
-  EXPECT_LT((drop.velocities() - v0).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(Damping, PoorVerticesTakeOnTheirNeighboursMean) {

@@ -57,6 +57,42 @@ TEST(MeanCurvatureFlow, ASphereShrinksAsTheSquareRootOfTime) {
   EXPECT_LT(std::abs(fine), 0.4 * std::abs(coarse));
 }
 
+/// The factor that a step of viscosity alone leaves of a velocity field of degree 2 on the unit sphere: lambda = 6.
+double decay_of_degree_two(int frequency, double eta) {
+  Drop drop(make_icosphere({0, 0, 0}, 1, frequency));
+  const Eigen::Matrix3Xd x = drop.positions();
+  const Eigen::RowVectorXd y2 = x.row(0).cwiseProduct(x.row(1));
+  drop.velocities().setZero();
+  drop.velocities().row(2) = y2;
+  MeanCurvatureFlowOptions options = exact(0);
+  options.viscosity = eta;
+  flow(drop, 1, options);
+  EXPECT_LT((drop.positions() - x - (drop.velocities() - Vector3d::UnitZ() * y2)).cwiseAbs().maxCoeff(), 1e-12);
+  return drop.velocities().row(2).dot(y2) / y2.squaredNorm();
+}
+
+TEST(MeanCurvatureFlow, ViscosityDecaysAnEigenfunctionByItsEigenvalue) {
+  // 1/(1 + 6 eta dt), of second order in the edges; what it does to velocities moves the vertices too.
+  const auto error = [](int frequency) { return std::abs(decay_of_degree_two(frequency, 0.5) - 1 / (1 + 3.0)); };
+  EXPECT_LT(error(16), 2e-3);
+  EXPECT_LT(error(16), 0.35 * error(8));
+}
+
+TEST(MeanCurvatureFlow, ViscosityLeavesRigidMotionAlone) {
+  Drop drop(make_ellipsoid({0.5, -1, 2}, {0.3, 0.2, 0.15}, 0.05));
+  const Eigen::Matrix3Xd x = drop.positions();
+  const Vector3d translation(1, 2, -3), rotation(4, -5, 6);
+  for (Eigen::Index i = 0; i < x.cols(); ++i)
+    drop.velocities().col(i) = translation + rotation.cross(Vector3d(x.col(i)) - Vector3d(0.5, -1, 2));
+  const Eigen::Matrix3Xd v = drop.velocities();
+  MeanCurvatureFlowOptions options = exact(0);
+  options.viscosity = 0.3;
+  options.rotation = rotation;
+  flow(drop, 1e-2, options);
+  EXPECT_LT((drop.velocities() - v).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((drop.positions() - x).cwiseAbs().maxCoeff(), 1e-14);
+}
+
 TEST(MeanCurvatureFlow, TheCentreOfMassStaysAndVelocityFollowsTheMove) {
   Drop drop(make_ellipsoid({3, 2, 1}, {0.3, 0.2, 0.15}, 0.04));
   const Eigen::Matrix3Xd x0 = drop.positions();

@@ -178,7 +178,8 @@ TEST(PressureLevel, ALargeDropSlidesDown) {
 TEST(PressureLevel, TurningTheWorldTurnsTheResult) {
   const Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const auto after = [](const Matrix3d& R) {
-    Scene scene = scene_on_plate(60, 90, 0.02);  // no edge leaves the band in these steps
+    Scene scene = scene_on_plate(60, 90, 0.01);  // no edge leaves the band in these steps: ties would be broken by
+    scene.mesh.edge_max = 0.2;                    // rounding, and differ
     scene.drops.clear();
     scene.solids[0].normal = R * Vector3d::UnitZ();
     scene.gravity = R * Vector3d(300, 0, -900);
@@ -192,7 +193,7 @@ TEST(PressureLevel, TurningTheWorldTurnsTheResult) {
   const Simulation upright = after(Matrix3d::Identity()), turned = after(turn);
   const Drop &a = upright.drops().front(), &b = turned.drops().front();
   ASSERT_EQ(a.num_rows(), b.num_rows());
-  EXPECT_LT((turn * Eigen::Matrix3Xd(a.positions()) - b.positions()).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_LT((turn * Eigen::Matrix3Xd(a.positions()) - b.positions()).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 TEST(PressureLevel, NumberingOfVerticesDoesNotMatter) {

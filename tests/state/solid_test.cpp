@@ -225,7 +225,7 @@ RC_GTEST_PROP(Solid, IsNearNeverMisses, ()) {
     solid.set_velocity(velocity);
     const Eigen::AlignedBox3d box(x - Vector3d(0.1, 0.2, 0.3), x + Vector3d(0.3, 0.2, 0.1));
     if (solid.query(x, time).distance <= margin) RC_ASSERT(solid.is_near(box, time, margin));
-    if (solid.query(x, time).distance <= 0) RC_ASSERT(solid.is_near(Eigen::AlignedBox3d(x), time, 0));
+    if (solid.query(x, time).distance <= 0) RC_ASSERT(solid.is_near(x, time, 0));
     RC_ASSERT(!solid.is_near(Eigen::AlignedBox3d(), time, margin));
   }
 }

@@ -26,6 +26,9 @@ void assemble_flow_matrix(const Connectivity& connectivity, const SurfaceGeometr
 void curvature_right_hand_side(const Connectivity& connectivity, const RingMatrix& matrix,
                                const ConstColumns& positions, Lanes* rhs);
 
+/// The same for any vectors in place of the positions: rhs_i = sum_k weight_k (y_k - y_i). One entry a row.
+void weighted_differences(const Connectivity& connectivity, const RingMatrix& matrix, const Lanes* y, Lanes* rhs);
+
 /// What a solve's tolerance left of the motion of the whole: the translation t (cm) for which solution + t gives sum M
 /// (solution + t) = sum rhs, as the exact solution does where no row is fixed (L 1 = 0).
 Eigen::Vector3d missing_translation(const SurfaceGeometry& geometry, const std::vector<Lanes>& rhs,

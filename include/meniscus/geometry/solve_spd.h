@@ -76,6 +76,9 @@ class SpdSolver {
   SolveReport solve(const Connectivity& connectivity, const RingMatrix& matrix, const Lanes* rhs, Lanes* solution,
                     const std::uint8_t* fixed, bool pattern_changed, const SolverOptions& options);
 
+  /// Drops the kept factors: the next matrix may be of another mesh with as many rows. Arrays stay.
+  void forget();
+
  private:
   struct Workspace;
   std::unique_ptr<Workspace> workspace_;

@@ -11,8 +11,6 @@ struct DampingOptions {
   /// Share (0..1) of its neighbours' mean velocity that a vertex of poor quality takes on: the
   /// paper's extra viscosity where remeshing could not mend the mesh.
   double poor_quality_smoothing = 0.5;
-  /// Whether the rigid motion of the drop is left alone: in contact, what the solids leave of it.
-  bool keep_rigid_motion = false;
   SolverOptions solver;  ///< for viscosity beyond the explicit limit
 };
 

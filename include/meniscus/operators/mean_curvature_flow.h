@@ -20,6 +20,10 @@ struct MeanCurvatureFlowOptions {
   bool clamp_negative_weights = true;
   /// Flows by the curvature K less this pressure: K = p + const at rest, Young-Laplace.
   BodyPressure body_pressure;
+  /// eta, cm^2/s, >= 0: viscosity (Eq 3), taken in the same solve.
+  double viscosity = 0;
+  /// rad/s, about any centre: the rotation that viscosity leaves alone.
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();
   SolverOptions solver;
 };
 
@@ -30,8 +34,11 @@ struct MeanCurvatureFlowOptions {
 ///
 /// A body pressure b adds gamma dt b(x_i) w_i to the right-hand side, w_i = dV/dx_i.
 ///
+/// With viscosity the velocities follow v_new = v - (gamma L (x + d) + eta dt L (u + d/dt))/M with u = v less the
+/// rotation, both terms by backward Euler: eta dt joins gamma dt in the matrix, and -eta dt^2 L u the right-hand side.
+///
 /// Reads positions, `geometry` (of the current positions) and contact state; writes positions,
-/// velocities and displacements. gamma dt = 0 does nothing. With dt = 0 the velocity is left alone.
+/// velocities and displacements. gamma dt = eta dt = 0 does nothing. With dt = 0 the velocity is left alone.
 /// Throws NumericsError if the solve does not converge.
 SolveReport flow_by_mean_curvature(Drop& drop, const SurfaceGeometry& geometry, double dt,
                                    const MeanCurvatureFlowOptions& options);

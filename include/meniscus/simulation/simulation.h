@@ -76,6 +76,7 @@ class Simulation {
   std::vector<Drop> drops_;
   StepOptions options_;
   Remeshers remeshers_;
+  tbb::enumerable_thread_specific<Workspace> workspaces_;  ///< lent to small drops in turn
   BroadPhase paths_, places_;  ///< of swept boxes before a step and of boxes after it
   SourceFeed feed_;
   bool sleep_ = false;

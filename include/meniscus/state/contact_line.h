@@ -3,6 +3,7 @@
 
 #include "meniscus/state/drop.h"
 
+#include <cmath>
 #include <optional>
 
 namespace meniscus {
@@ -15,12 +16,14 @@ void mark_contact_line(Drop& drop);
 struct ContactLineVertex {
   Eigen::Vector3d outward;  ///< unit, in the solid's tangent plane, from the wetted area to the dry
   double length;            ///< cm of contact line that belongs to the vertex: |grad A_wet|
-  double angle;             ///< theta from the mean normal n_L of the water-air faces, through the liquid
+  double angle_cosine;      ///< of theta from the mean normal n_L of the water-air faces, through the liquid
   double energy_cosine;     ///< cos(theta) by virtual work: grad A_air . outward / length
   double volume_gradient;   ///< the volume's derivative for a move along `outward`, cm^2
   double stiffness;         ///< L_ii of the water-air faces alone: the growth of the force with the move
   Eigen::Vector3d middle;   ///< midway between the neighbours on the line
-  double turn;              ///< by which the line turns here, radians, 0 where it is straight
+  double turn_cosine;       ///< of the angle by which the line turns here, 1 where it is straight
+
+  double angle() const { return std::acos(angle_cosine); }  ///< radians
 };
 
 /// Looks at vertex v, whose contact state must be Contact::line. Nothing if its line length or

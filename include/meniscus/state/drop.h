@@ -29,7 +29,29 @@ enum class LineStatus : std::uint8_t { advancing = 0, stuck = 1, receding = 2 };
 
 struct PressureArrays;  ///< of operators/pressure.h
 
-/// The arrays that operators need within a step, kept so that an unchanged mesh allocates nothing.
+class Drop;
+
+/// What operators write of a drop, kept so that a bad substep can be taken back, but for the last displacements, which
+/// restore() sets to zero. Operators never change elements, so flat copies do. Allocates nothing while the number of
+/// rows stands.
+class KeptState {
+ public:
+  void keep(Drop& drop);
+  /// Precondition: the drop's elements are those of the last keep().
+  void restore(Drop& drop) const;
+  const Eigen::Matrix3Xd& positions() const { return positions_; }
+
+ private:
+  Eigen::Matrix3Xd positions_, velocities_, contact_normals_;
+  std::vector<Contact> contact_;
+  std::vector<std::int32_t> contact_solid_;
+  std::vector<std::uint8_t> line_status_;
+  double target_volume_ = 0;
+  bool touched_ = false;  ///< a solid; what belongs to contact is kept only then
+};
+
+/// The arrays that operators need within a step, kept so that an unchanged mesh allocates nothing. What comes out of
+/// a step does not depend on what is in them at its start.
 struct Workspace {
   SurfaceGeometry geometry;
   RingMatrix matrix;
@@ -38,6 +60,8 @@ struct Workspace {
   std::vector<Eigen::Vector3d> vectors;
   std::vector<double> scalars, more_scalars;
   std::vector<std::uint8_t> fixed;
+  KeptState kept;                            ///< at the start of the substep
+  std::vector<std::uint8_t> violent_faces;   ///< by face, of the last FaceChanges
   std::shared_ptr<PressureArrays> pressure;  ///< made at first use
 };
 
@@ -100,8 +124,12 @@ class Drop {
 
   Connectivity& connectivity() { return connectivity_; }
   const Connectivity& connectivity() const { return connectivity_; }
-  Workspace& workspace() { return workspace_; }
-  const Workspace& workspace() const { return workspace_; }
+  /// The arrays that were lent to it, else its own, made at first use.
+  Workspace& workspace() { return find_workspace(); }
+  const Workspace& workspace() const { return find_workspace(); }
+  /// Lends arrays that many drops use in turn, so that they stay in the processor's cache; nullptr ends that. Whoever
+  /// lends them keeps them alive and to one drop at a time, and lets their solver forget the drop before.
+  void lend_workspace(Workspace* shared) { lent_workspace_ = shared; }
 
   /// Counts up whenever elements of the mesh changed, so that kept factors know that they are void.
   std::uint64_t topology_version() const { return topology_version_; }
@@ -147,6 +175,11 @@ class Drop {
  private:
   Drop() = default;
   void bind();
+  Workspace& find_workspace() const {
+    if (lent_workspace_) return *lent_workspace_;
+    if (!own_workspace_) own_workspace_ = std::make_unique<Workspace>();
+    return *own_workspace_;
+  }
 
   Mesh mesh_;
   Mesh::Property_map<VertexIndex, Vector> velocity_, displacement_, contact_normal_;
@@ -154,7 +187,8 @@ class Drop {
   Mesh::Property_map<VertexIndex, std::int32_t> contact_solid_;
   Mesh::Property_map<VertexIndex, std::uint8_t> poor_quality_, seam_watch_, line_status_;
   Connectivity connectivity_;
-  Workspace workspace_;
+  mutable std::unique_ptr<Workspace> own_workspace_;
+  Workspace* lent_workspace_ = nullptr;
   double target_volume_ = 0;
   std::uint64_t topology_version_ = 1, flow_version_ = 0;
   double rest_time_ = 0, inflow_ = 0;

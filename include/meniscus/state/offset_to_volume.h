@@ -17,9 +17,13 @@ struct VolumeOffset {
   bool limited = false;     ///< d was cut to its bounds
 };
 
+/// How fast the volume grows when vertices off solids move along the normals of `geometry`: dV/dd, cm^2.
+double free_area(const Drop& drop, const SurfaceGeometry& geometry);
+
 /// Offsets the surface off solids along the normals of `geometry` by d = (V_wanted - V)/A, by secants, until the
-/// volume fits to 1e-12; d stays within [least, most] (cm). Global volume correction, Section 4.4 of the
-/// paper. Writes positions only. Does nothing where no vertex is off solids.
-VolumeOffset offset_to_volume(Drop& drop, const SurfaceGeometry& geometry, double volume, double least, double most);
+/// volume fits to 1e-12; d stays within [least, most] (cm). `area` is the first A: free_area. Global volume correction,
+/// Section 4.4 of the paper. Writes positions only. Does nothing if the area is not positive.
+VolumeOffset offset_to_volume(Drop& drop, const SurfaceGeometry& geometry, double area, double volume, double least,
+                              double most);
 
 }  // namespace meniscus

@@ -94,8 +94,10 @@ class Solid {
   bool is_plane() const { return std::holds_alternative<Plane>(shape_); }
 
   /// Whether anything in the box may be within `margin` (cm) of the solid or inside it: a fast test
-  /// that misses nothing but rounding. A box of one point will do, an empty one is near nothing.
+  /// that misses nothing but rounding. An empty box is near nothing.
   bool is_near(const Eigen::AlignedBox3d& box, double time, double margin) const;
+  /// The same for a point.
+  bool is_near(const Eigen::Vector3d& x, double time, double margin) const;
 
   std::string name;                              ///< may be empty
   double advancing_angle = 1.57079632679489662;  ///< theta_a, radians, through the liquid

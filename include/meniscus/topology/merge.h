@@ -42,11 +42,9 @@ struct MergeReport {
 std::optional<std::vector<Drop>> merge_drops(const Drop& a, const Drop& b, const MergeOptions& options,
                                              Remesher& remesher, MergeReport& report);
 
-/// Watches (Drop::seam_watch) the vertices of faces that changed much since `before` (3 x rows, cm): that turned over,
-/// or an edge of which turned or stretched by half its length, as where a drop crumples or hits a solid; and those of
-/// faces on a solid that do not face it, or that face away from the normal at a vertex (as of the last
-/// drop.workspace().geometry).
-void watch_violent_faces(Drop& drop, const Eigen::Matrix3Xd& before);
+/// Watches (Drop::seam_watch) the vertices of marked faces: one entry a face, or none at all; find_face_changes marks
+/// violent ones.
+void watch_faces(Drop& drop, const std::vector<std::uint8_t>& marked);
 
 /// Whether mend_folds has anything to look at: watched vertices, or a drop at all with options.self_merge.
 bool may_fold(const Drop& drop, const MergeOptions& options);

@@ -18,8 +18,14 @@ struct RemeshOptions {
   std::optional<double> feature_angle;  ///< edges whose faces' normals differ by more are kept sharp
   bool cut_necks = true;                ///< cut at 3-cycles that forbid a collapse (Section 5.2)
   double max_normal_turn = 1.0472;      ///< a collapse or split may turn a face's normal by at most this
-  double max_flip_dihedral = 0.61;      ///< edges whose faces' normals differ by more are not flipped
-  double max_faces = 50e6;              ///< a band that needs more faces is refused
+  /// Edges flip where the cotangents of the angles opposite to them sum to less (twice their weight). Below zero, so
+  /// that cocircular quadrangles rest; further below where the mesh moves, or they flip to and fro.
+  double flip_below = -1e-4;
+  double max_flip_dihedral = 0.61;  ///< edges whose faces' normals differ by more are not flipped
+  /// Whether no operation may make the surface meet itself, anywhere; else that is seen to near watched vertices alone
+  /// (Drop::seam_watch).
+  bool guard_everywhere = false;
+  double max_faces = 50e6;          ///< a band that needs more faces is refused
 };
 
 /// Why an edge stayed out of the band: one entry an edge.

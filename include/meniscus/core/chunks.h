@@ -14,9 +14,9 @@
 namespace meniscus {
 
 namespace chunks {
-inline constexpr std::size_t least_rows = 16384;
+inline constexpr std::size_t least_rows = 8192;
 inline constexpr std::size_t most = 32;
-inline std::size_t count(std::size_t rows) { return rows <= least_rows ? 1 : std::min(most, rows / (least_rows / 8)); }
+inline std::size_t count(std::size_t rows) { return rows <= least_rows ? 1 : std::min(most, rows / (least_rows / 4)); }
 inline std::size_t begin(std::size_t rows, std::size_t chunk, std::size_t count) { return rows * chunk / count; }
 }  // namespace chunks
 

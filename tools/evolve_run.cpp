@@ -19,6 +19,9 @@
 namespace meniscus::tools {
 namespace {
 
+/// Of all drops together: beyond, frames show something else than the scene's liquid.
+constexpr double most_volume_error = 0.05;
+
 volatile std::sig_atomic_t caught_signal = 0;  // the one thing that a signal handler may write
 
 extern "C" void catch_signal(int number) {
@@ -244,6 +247,7 @@ class Evolution {
       const double start = seconds_now();
       const StepReport report = step();
       statistics_.add_step(simulation_, report, seconds_now() - start);
+      say_if_volume_is_off();
       if (k % each == 0 || k == plan_.steps) {
         const std::int64_t frame = (k + each - 1) / each;
         write_frame(writer, behind, frame);
@@ -253,6 +257,18 @@ class Evolution {
                                  plan_.steps, simulation_.time(), simulation_.drops().size(), report.triangles,
                                  1e-6 * statistics_.triangle_steps_per_second()));
     }
+  }
+
+  /// Says once that frames have begun to be wrong, where nothing in the numerics fails.
+  void say_if_volume_is_off() {
+    const double off = statistics_.volume_error();
+    if (has_said_volume_ || std::abs(off) < most_volume_error) return;
+    has_said_volume_ = true;
+    progress_.clear();
+    console_.say(
+        fmt::format("warning: at {:.4g} s the drops hold {:.1f} % {} than they ought to; run.json has the worst "
+                    "of the run (volume.worst_relative_error)",
+                    simulation_.time(), 100 * std::abs(off), off < 0 ? "less" : "more"));
   }
 
   /// Tells of a failure where it can: on a full disk the error itself is worth more than that run.json failed too.
@@ -291,6 +307,7 @@ class Evolution {
   RunStatistics statistics_;
   int frames_ = 0;
   double safe_time_step_ = 0;
+  bool has_said_volume_ = false;
 };
 
 }  // namespace

@@ -227,7 +227,11 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
                                            [&](Drop& moving, double to, double step, const StepOptions& at,
                                                StepReport& sum) { deform(moving, solids, to, step, at, sum); });
   StageClock clock(options.clock, report);
-  return remesh_and_split(std::move(drop), kept.positions(), options, remesher, clock, report);
+  const int id = drop.id();
+  const double volume = options.level == Level::paper ? drop.volume() : 0;
+  std::vector<Drop> pieces = remesh_and_split(std::move(drop), kept.positions(), options, remesher, clock, report);
+  if (options.level == Level::paper) check_not_crumpled(pieces, volume, id);
+  return pieces;
 }
 
 }  // namespace

@@ -147,6 +147,18 @@ class FoldFinder {
   std::vector<Pair> meeting_;
 };
 
+/// A drop that is relaxed nearly all over shrinks, and would again in each substep that takes it back. Restores its
+/// volume, too, unless faces would meet that do not: then the drop stays as it was, and the result is false.
+bool restore_volume(Drop& drop, const Ledger& ledger, const WatchedRegion& region) {
+  const Eigen::Matrix3Xd positions = drop.positions(), velocities = drop.velocities();
+  const bool did_meet = meet_each_other(drop, region.faces_of(drop));
+  restore_ledger(drop, ledger, true);
+  if (did_meet || !meet_each_other(drop, region.faces_of(drop))) return true;
+  drop.positions() = positions;
+  drop.velocities() = velocities;
+  return false;
+}
+
 /// Takes vertices of a drop back to where they were before the substep.
 class TakeBack {
  public:
@@ -242,7 +254,10 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& 
     if (taken.empty()) count_down_watch(drop, options.remesh.band.edge_max);
     relax(drop, taken, region, options.remesh.band.edge_max);
     const bool is_measurable = std::abs(ledger.volume / drop.target_volume() - 1) < largest_volume_error;
-    if (!taken.empty() && is_measurable) restore_ledger(drop, ledger, false);
+    if (!taken.empty() && is_measurable) {
+      const bool is_most = 2 * taken.size() > drop.mesh().number_of_vertices();
+      if (!is_most || !restore_volume(drop, ledger, region)) restore_ledger(drop, ledger, false);
+    }
     return std::nullopt;
   }
   ++report.folds;

@@ -104,6 +104,16 @@ TEST_F(Evolve, TheModelAutoIsSaidAndReported) {
   EXPECT_FALSE(report("plain/run.json").contains("auto"));
 }
 
+TEST_F(Evolve, VolumeThatGoesAmissIsSaidOnce) {
+  const Outcome outcome = tool("evolve splash.json -o out --frames 30 --set volume_correction=none");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::size_t first = outcome.err.find("than they ought to");
+  ASSERT_NE(first, std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("than they ought to", first + 10), std::string::npos) << outcome.err;
+  EXPECT_GT(report("out/run.json")["volume"]["worst_relative_error"].get<double>(), 0.05);
+  EXPECT_FALSE(has(tool("evolve splash.json -o kept").err, "than they ought to"));
+}
+
 TEST_F(Evolve, FramesAreTheSameOnOneThreadAndTwo) {
   ASSERT_EQ(tool("evolve splash.json -o one --threads 1").code, 0);
   ASSERT_EQ(tool("evolve splash.json -o two --threads 2").code, 0);

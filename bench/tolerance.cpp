@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the solver's tolerance does to the levels: mode 2 of a drop of R = 0.2 cm of water beside the same drop solved
-// as tightly as the level goes, and the iterations that it takes. Writes tolerance.csv and .json into docs/charts, or, with --quick (a few
-// rows), nowhere, unless a directory is given. bench_tolerance [--quick] [--out DIRECTORY]
+// as tightly as the level goes, and the iterations that it takes. Writes tolerance.csv and .json into docs/charts, or,
+// with --quick (a few rows), nowhere, unless a directory is given. bench_tolerance [--quick] [--out DIRECTORY]
 #include "meniscus/core/error.h"
 #include "meniscus/simulation/oscillation.h"
 #include "support/chart_table.h"

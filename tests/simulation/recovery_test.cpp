@@ -118,7 +118,7 @@ TEST(Recovery, ADropThatIsTakenBackAgainAndAgainKeepsItsVolume) {
       drops = std::move(next);
       double now = 0;
       for (const Drop& drop : drops) now += drop.volume();
-      ASSERT_NEAR(now / volume, 1, 0.1) << "1/" << rate << " s, step " << n;
+      ASSERT_NEAR(now / volume, 1, 0.15) << "1/" << rate << " s, step " << n;
     }
     taken_back = std::max(taken_back, report.taken_back);
   }

@@ -269,7 +269,7 @@ const Measurements& measurements() {
         {Level::pressure, true, 50, 0.176776, 6, 0, 0},
         {Level::pressure, true, 50, 0.353554, 6, 1, 0},
         {Level::pressure, true, 50, 0.707106, 6, 0, 0},
-        {Level::pressure, true, 50, 1.41422, 6, 1, 0},
+        {Level::pressure, true, 50, 1.41422, 6, 0, 0},
         {Level::pressure, true, 50, 2.82842, 6, 0, 0},
         {Level::pressure, true, 50, 5.65686, 6, 0, 0},
     };

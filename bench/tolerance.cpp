@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the solver's tolerance does to the level "calibrated": mode 2 of a drop of R = 0.2 cm of water beside the same
-// drop solved to 1e-10, and the iterations that it takes. bench_tolerance [--quick]
+// What the solver's tolerance does to the levels: mode 2 of a drop of R = 0.2 cm of water beside the same drop solved
+// as tightly as the level goes, and the iterations that it takes. Writes tolerance.csv and .json into docs/charts, or,
+// with --quick (a few rows), nowhere, unless a directory is given. bench_tolerance [--quick] [--out DIRECTORY]
+#include "meniscus/core/error.h"
 #include "meniscus/simulation/oscillation.h"
-
-#include <fmt/format.h>
+#include "support/chart_table.h"
+#include "support/levels.h"
+#include "support/run_bench.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+#include <filesystem>
+#include <string>
 #include <vector>
 
 namespace {
 
 using namespace meniscus;
+using namespace meniscus::bench;
+
+constexpr const char* usage = "bench_tolerance [--quick] [--out DIRECTORY]";
 
 struct Motion {
   std::vector<double> amplitudes;
@@ -21,8 +28,9 @@ struct Motion {
   double volume_error = 0;
 };
 
-Motion oscillate(int frequency, double dt, int steps, double tolerance) {
+Motion oscillate(Level level, int frequency, double dt, int steps, double tolerance) {
   StepOptions options;
+  options.level = level;
   options.gravity.setZero();
   options.remesh = false;
   options.solver.tolerance = tolerance;
@@ -47,22 +55,44 @@ double difference(const Motion& a, const Motion& b) {
   return most / 0.05;
 }
 
+ChartTable measure(bool quick) {
+  ChartTable table("tolerance", "Mode 2 of a ball of water, R = 0.2 cm, beside the same solved to 1e-10",
+                   {"level", "triangles", "time_step", "tolerance", "iterations", "amplitude_off", "volume_error"});
+  for (const NamedLevel& level : levels)
+    for (const int frequency : {8, 16})
+      for (const double rate : {960.0, 5000.0}) {
+        if (quick && (frequency > 8 || rate > 1000)) continue;
+        const int steps = static_cast<int>((quick ? 0.02 : 0.06) * rate);
+        const Motion exact = oscillate(level.level, frequency, 1 / rate, steps, 1e-10);
+        for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+          const Motion motion = oscillate(level.level, frequency, 1 / rate, steps, tolerance);
+          table.add({std::string(level.name), 20.0 * frequency * frequency, 1 / rate, tolerance, motion.iterations,
+                     difference(motion, exact), motion.volume_error});
+        }
+      }
+  return table;
+}
+
+int run(int argc, char** argv) {
+  bool quick = false;
+  std::filesystem::path out;
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    if (word == "--quick")
+      quick = true;
+    else if (word == "--out" && k + 1 < argc)
+      out = argv[++k];
+    else
+      throw UsageError(usage);
+  }
+  const ChartTable table = measure(quick);
+  if (!quick || !out.empty())
+    table.write(out.empty() ? std::filesystem::path(MENISCUS_SOURCE_DIR "/docs/charts") : out);
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;
-  fmt::print("{:>9} {:>7} {:>10} {:>11} {:>14} {:>11}\n", "triangles", "1/dt", "tolerance", "iterations",
-             "amplitude off", "volume off");
-  for (const int frequency : {8, 16})
-    for (const double rate : {960.0, 5000.0}) {
-      if (quick && (frequency > 8 || rate > 1000)) continue;
-      const int steps = static_cast<int>((quick ? 0.02 : 0.06) * rate);
-      const Motion exact = oscillate(frequency, 1 / rate, steps, 1e-10);
-      for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
-        const Motion motion = oscillate(frequency, 1 / rate, steps, tolerance);
-        fmt::print("{:>9} {:>7} {:>10.0e} {:>11.1f} {:>14.1e} {:>11.1e}\n", 20 * frequency * frequency, rate, tolerance,
-                   motion.iterations, difference(motion, exact), motion.volume_error);
-      }
-    }
-  return 0;
+  return run_bench(argc, argv, usage, [&] { return run(argc, argv); });
 }

@@ -19,6 +19,9 @@
 namespace meniscus::tools {
 namespace {
 
+/// Of all drops together: beyond, frames show something else than the scene's liquid.
+constexpr double most_volume_error = 0.05;
+
 volatile std::sig_atomic_t caught_signal = 0;  // the one thing that a signal handler may write
 
 extern "C" void catch_signal(int number) {
@@ -56,7 +59,19 @@ class Evolution {
         statistics_(simulation_) {
     simulation_.set_clock(&seconds_now);
     if (plan_.verify) simulation_.set_verify(Verify::everything);
-    safe_time_step_ = safe_time_step(make_step_options(plan_.scene), simulation_.drops(), simulation_.solids());
+    safe_time_step_ = simulation_.choice().substeps *
+                      safe_time_step(simulation_.options(), simulation_.drops(), simulation_.solids());
+  }
+
+  /// Says what the level "auto" took, and why.
+  void say_choice() const {
+    if (!plan_.scene.accuracy) return;
+    const ModelChoice& choice = simulation_.choice();
+    const Json chosen = chosen_keys();
+    console_.say(fmt::format("auto, {}: {} in {} substep{}, volume_correction {}, solver {} to {:.0e}\n  {}",
+                             accuracy_name(*plan_.scene.accuracy), level_name(choice.level), choice.substeps,
+                             choice.substeps == 1 ? "" : "s", chosen["volume_correction"].get<std::string>(),
+                             chosen["solver"]["method"].get<std::string>(), choice.solver_tolerance, choice.why));
   }
 
   /// Says before the first step if the time step is outside of the region that was mapped as safe.
@@ -109,11 +124,29 @@ class Evolution {
     report["triangles"] = num_triangles(simulation_);
     report["drops"] = simulation_.drops().size();
     report["safe_time_step"] = std::isfinite(safe_time_step_) ? Json(safe_time_step_) : Json();
+    add_choice(report);
     report["resolved_scene"] = Json::parse(resolved_scene(plan_.scene));
     return report;
   }
 
  private:
+  /// The keys that "auto" stands for, as a scene would give them.
+  Json chosen_keys() const {
+    const Json scene = Json::parse(resolved_scene(with_choice(plan_.scene, simulation_.choice())));
+    Json chosen = Json::object();
+    for (const char* key : {"model", "substeps", "volume_correction", "solver"}) chosen[key] = scene[key];
+    return chosen;
+  }
+
+  void add_choice(Json& report) const {
+    if (!plan_.scene.accuracy) return;
+    Json choice{{"accuracy", accuracy_name(*plan_.scene.accuracy)}};
+    choice.update(chosen_keys());
+    choice["is_met"] = simulation_.choice().is_met;
+    choice["why"] = simulation_.choice().why;
+    report["auto"] = std::move(choice);
+  }
+
   std::string title() const {
     return plan_.scene.file.empty() ? fmt::format("{}", fmt::join(plan_.inputs, " ")) : plan_.scene.file.string();
   }
@@ -214,6 +247,7 @@ class Evolution {
       const double start = seconds_now();
       const StepReport report = step();
       statistics_.add_step(simulation_, report, seconds_now() - start);
+      say_if_volume_is_off();
       if (k % each == 0 || k == plan_.steps) {
         const std::int64_t frame = (k + each - 1) / each;
         write_frame(writer, behind, frame);
@@ -223,6 +257,18 @@ class Evolution {
                                  plan_.steps, simulation_.time(), simulation_.drops().size(), report.triangles,
                                  1e-6 * statistics_.triangle_steps_per_second()));
     }
+  }
+
+  /// Says once that frames have begun to be wrong, where nothing in the numerics fails.
+  void say_if_volume_is_off() {
+    const double off = statistics_.volume_error();
+    if (has_said_volume_ || std::abs(off) < most_volume_error) return;
+    has_said_volume_ = true;
+    progress_.clear();
+    console_.say(
+        fmt::format("warning: at {:.4g} s the drops hold {:.1f} % {} than they ought to; run.json has the worst "
+                    "of the run (volume.worst_relative_error)",
+                    simulation_.time(), 100 * std::abs(off), off < 0 ? "less" : "more"));
   }
 
   /// Tells of a failure where it can: on a full disk the error itself is worth more than that run.json failed too.
@@ -239,6 +285,7 @@ class Evolution {
     if (!message.empty()) report["message"] = message;
     report["scene"] = title();
     report["frames"] = frames_;
+    add_choice(report);
     report.update(statistics_.to_json());
     write_report(report, common_);
     report["version"] = version();
@@ -260,6 +307,7 @@ class Evolution {
   RunStatistics statistics_;
   int frames_ = 0;
   double safe_time_step_ = 0;
+  bool has_said_volume_ = false;
 };
 
 }  // namespace
@@ -268,10 +316,12 @@ int run_evolution(RunPlan plan, const CommonOptions& common) {
   const bool dry_run = plan.dry_run;
   Evolution evolution(std::move(plan), common);
   if (dry_run) {
+    evolution.say_choice();
     if (common.json != "-") write_stdout(evolution.describe());
     write_report(evolution.plan_report(), common);
     return done;
   }
+  evolution.say_choice();
   evolution.say_whether_safe();
   std::signal(SIGINT, catch_signal);
   std::signal(SIGTERM, catch_signal);

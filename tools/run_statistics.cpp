@@ -54,8 +54,12 @@ void RunStatistics::add_step(const Simulation& simulation, const StepReport& rep
   final_volume_ = simulation.volume();
   time_ = simulation.time();
   num_drops_ = simulation.drops().size();
+  worst_error_ = std::max(worst_error_, std::abs(volume_error()));
+}
+
+double RunStatistics::volume_error() const {
   const double expected = initial_volume_ + sum_.volume_added;
-  if (expected > 0) worst_error_ = std::max(worst_error_, std::abs(final_volume_ - expected) / expected);
+  return expected > 0 ? (final_volume_ - expected) / expected : 0;
 }
 
 double RunStatistics::wall_seconds() const { return seconds_now() - start_wall_; }

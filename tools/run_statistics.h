@@ -38,6 +38,8 @@ class RunStatistics {
     if constexpr (!std::is_const_v<Self>) self.set_used_seconds(wall, cpu);
   }
 
+  /// Of all drops together after the last step, relative to what there ought to be.
+  double volume_error() const;
   std::size_t num_steps() const { return step_seconds_.size(); }
   double triangle_steps_per_second() const;
 

@@ -76,8 +76,8 @@ void add_evolver(ChartTable& table, double angle, int refinements, bool quadrati
     return;
   }
   table.add({std::string(quadratic ? "evolver quadratic" : "evolver linear"), 0.2, angle, nan, evolved.facets,
-             evolved.height / exact.height - 1, evolved.contact_radius / exact.contact_radius - 1, nan,
-             run.cpu_seconds});
+             evolved.height / exact.height - 1, evolved.contact_radius / exact.contact_radius - 1, nan, run.cpu_seconds,
+             nan});
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ void add_evolver(ChartTable& table, double angle, int refinements, bool quadrati
 ChartTable sessile_chart(bool quick) {
   ChartTable table("sessile", "Water at rest on a plane, beside Young-Laplace",
                    {"method", "radius", "angle", "edge_over_radius", "triangles", "height_error",
-                    "contact_radius_error", "seconds_to_rest", "cpu_seconds"});
+                    "contact_radius_error", "seconds_to_rest", "cpu_seconds", "time_step"});
   for (const NamedLevel& level : levels)
     for (const double radius : {0.1, 0.2, 0.3})
       for (const double angle : {30.0, 60.0, 90.0, 120.0, 150.0})
@@ -103,7 +103,7 @@ ChartTable sessile_chart(bool quick) {
           if (paper) rest.longest = 0.5;
           const RestRun run = run_to_rest(rest);
           table.add({std::string(level.name), radius, angle, share, run.triangles, run.height_error, run.radius_error,
-                     run.rested ? run.seconds : nan, run.cpu_seconds});
+                     run.rested ? run.seconds : nan, run.cpu_seconds, rest.time_step});
         }
   if (quick) return table;
   if (!is_installed("evolver")) {

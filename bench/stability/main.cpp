@@ -4,8 +4,9 @@
 // volume of a ball of R = 0.2 cm. Writes stability.csv, .json and .svg.
 //
 //   bench_stability [--quick] [--only METHOD] [--out DIRECTORY]
-//   bench_stability --stress N [--seed S] [--outside]
-//     N random runs inside (or outside) of the safe region, remeshing, solids and all
+//   bench_stability --stress N [--seed S] [--outside] [--limit SECONDS]
+//     N random runs inside (or outside) of the safe region, remeshing, solids and all, each given up after so many
+//     seconds of processor time (default 60)
 #include "meniscus/core/error.h"
 #include "stress.h"
 #include "support/chart_table.h"
@@ -26,7 +27,7 @@ using namespace meniscus;
 using namespace meniscus::bench;
 
 constexpr const char* usage =
-    "bench_stability [--quick] [--only METHOD] [--out DIRECTORY] | --stress N [--seed S] [--outside]";
+    "bench_stability [--quick] [--only METHOD] [--out DIRECTORY] | --stress N [--seed S] [--outside] [--limit SECONDS]";
 
 struct Method {
   std::string name;
@@ -55,7 +56,8 @@ ChartTable measure(bool quick, const std::string& only) {
   if (std::none_of(all.begin(), all.end(), [&](const Method& m) { return m.name.find(only) != std::string::npos; }))
     throw UsageError(fmt::format("there is no method \"{}\"", only));
   ChartTable table("stability", "What fails first: spheroids 2:1 of R = 0.2 cm; 12 steps, of levels at least 0.05 s",
-                   {"method", "quality", "edge", "tension", "time_step", "failure", "steps"});
+                   {"method", "quality", "edge", "tension", "time_step", "failure", "steps", "recoveries"});
+  table.fold_from(4);
   for (const Method& method : all) {
     if (method.name.find(only) == std::string::npos) continue;
     for (std::size_t q = 0; q < quality_names.size(); ++q)
@@ -72,7 +74,7 @@ ChartTable measure(bool quick, const std::string& only) {
             if (quick) trial.steps = 4;
             const TrialResult result = method.run(trial);
             table.add({method.name, std::string(quality_names[q]), edge, tension, 1 / rate,
-                       std::string(failure_name(result.failure)), double(result.steps)});
+                       std::string(failure_name(result.failure)), double(result.steps), double(result.recoveries)});
           }
   }
   return table;
@@ -82,6 +84,7 @@ int run(int argc, char** argv) {
   bool quick = false, outside = false;
   int stress = 0;
   unsigned seed = 1;
+  double limit = 60;
   std::string only;
   std::filesystem::path out;
   for (int k = 1; k < argc; ++k) {
@@ -98,16 +101,18 @@ int run(int argc, char** argv) {
       stress = std::stoi(argv[++k]);
     else if (word == "--seed" && k + 1 < argc)
       seed = static_cast<unsigned>(std::stoul(argv[++k]));
+    else if (word == "--limit" && k + 1 < argc)
+      limit = std::stod(argv[++k]);
     else
       throw UsageError(usage);
   }
   const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-  if (stress > 0) return run_stress(stress, seed, outside);
+  if (stress > 0) return run_stress(stress, seed, outside, limit);
   const TemporaryDirectory temporary;
   if (out.empty()) out = quick ? temporary.path() : std::filesystem::path(MENISCUS_SOURCE_DIR "/docs/charts");
   measure(quick, only).write(out);
   draw("stability", out);
-  if (quick) run_stress(20, seed, false);
+  if (quick) run_stress(20, seed, false, limit);
   return 0;
 }
 

@@ -7,6 +7,7 @@
 #include "meniscus/simulation/safe_time_step.h"
 #include "meniscus/simulation/simulation.h"
 #include "support/levels.h"
+#include "support/process.h"
 #include "test_meshes.h"
 
 #include <fmt/format.h>
@@ -36,6 +37,14 @@ enum class Ending {
   held,
   gave_up,  ///< by a clear error, exit code 5
   garbage,  ///< frames that are wrong without a word: not finite, volume lost, unsound
+  slow,     ///< not done within the limit of processor time
+};
+constexpr std::size_t num_endings = 4;
+
+struct Outcome {
+  Ending ending = Ending::held;
+  std::string wrong;           ///< in words; "" if it held
+  std::size_t recoveries = 0;  ///< substeps that were taken back and done again in halves
 };
 
 /// Log-uniform inside the safe region, down to 1/4800 s, or beyond it, up to 30 times.
@@ -104,38 +113,50 @@ std::string defect_of(const Simulation& simulation) {
   return {};
 }
 
-Ending run_trial(Trial& trial, std::string& wrong) {
+Outcome run_trial(Trial& trial, double limit) {
+  Outcome outcome;
+  const double start = cpu_seconds();
   try {
     Simulation simulation(trial.scene, std::move(trial.drops));
-    for (int k = 0; k < num_steps; ++k) simulation.step();
-    wrong = defect_of(simulation);
+    for (int k = 0; k < num_steps; ++k) {
+      outcome.recoveries += simulation.step().recoveries;
+      if (cpu_seconds() - start < limit) continue;
+      outcome.ending = Ending::slow;
+      outcome.wrong = fmt::format("given up after {} of {} steps in {:.0f} s", k + 1, num_steps, cpu_seconds() - start);
+      return outcome;
+    }
+    outcome.wrong = defect_of(simulation);
+    if (!outcome.wrong.empty()) outcome.ending = Ending::garbage;
   } catch (const Error& error) {
-    wrong = std::string("gave up: ") + error.what();
-    return Ending::gave_up;
+    outcome.wrong = std::string("gave up: ") + error.what();
+    outcome.ending = Ending::gave_up;
   }
-  return wrong.empty() ? Ending::held : Ending::garbage;
+  return outcome;
 }
 
 }  // namespace
 
-int run_stress(int trials, unsigned seed, bool outside) {
-  std::array<std::array<int, 3>, std::size(levels)> count{};
+int run_stress(int trials, unsigned seed, bool outside, double limit) {
+  std::array<std::array<int, num_endings>, std::size(levels)> count{};
+  std::array<int, std::size(levels)> recovered{};  // runs
   int failures = 0;
   for (int k = 0; k < trials; ++k) {
     Trial trial = random_trial(seed + static_cast<unsigned>(k), outside);
-    std::string wrong;
-    const Ending ending = run_trial(trial, wrong);
-    ++count[trial.level][static_cast<std::size_t>(ending)];
-    if (ending == Ending::held || (outside && ending == Ending::gave_up)) continue;
-    ++failures;
+    const Outcome outcome = run_trial(trial, limit);
+    ++count[trial.level][static_cast<std::size_t>(outcome.ending)];
+    if (outcome.recoveries > 0) ++recovered[trial.level];
+    if (outcome.ending == Ending::held || (outside && outcome.ending == Ending::gave_up)) continue;
+    if (outcome.ending != Ending::slow) ++failures;
     fmt::print("--stress 1 --seed {}{}: {}: {}\n", seed + static_cast<unsigned>(k), outside ? " --outside" : "",
-               trial.words, wrong);
+               trial.words, outcome.wrong);
     std::fflush(stdout);
   }
   fmt::print("{} random runs {} the safe region\n", trials, outside ? "outside" : "inside");
   for (std::size_t l = 0; l < count.size(); ++l)
-    fmt::print("{}: {} held, {} gave up with an error, {} were wrong without a word\n", levels[l].name, count[l][0],
-               count[l][1], count[l][2]);
+    fmt::print(
+        "{}: {} held, {} gave up with an error, {} were wrong without a word, {} were not done in time; {} of all "
+        "recovered from bad substeps\n",
+        levels[l].name, count[l][0], count[l][1], count[l][2], count[l][3], recovered[l]);
   return failures == 0 ? 0 : 5;
 }
 

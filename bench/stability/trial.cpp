@@ -181,6 +181,7 @@ TrialResult try_level(Level level, bool on_plane, const TrialCase& trial) {
   TrialResult result;
   Remesher remesher;
   StepReport report;
+  const auto ended = [&](Failure failure) { return TrialResult{failure, result.steps, report.recoveries}; };
   // Long enough for a drop to hit the plane and spread, whatever the step.
   const int steps = std::max(trial.steps, static_cast<int>(std::lround(least_time / trial.time_step)));
   try {
@@ -193,19 +194,19 @@ TrialResult try_level(Level level, bool on_plane, const TrialCase& trial) {
       drops = std::move(next);
       double new_volume = 0, new_area = 0;
       for (const Drop& drop : drops) {
-        if (!is_finite(drop)) return {Failure::not_finite, result.steps};
+        if (!is_finite(drop)) return ended(Failure::not_finite);
         new_volume += drop.volume();
         new_area += area_of(area_vectors(drop));
       }
-      if (new_area > most_growth * area * (on_plane ? 2 : 1)) return {Failure::area_grown, result.steps};
-      if (std::abs(new_volume / volume - 1) > most_volume_error) return {Failure::volume_lost, result.steps};
+      if (new_area > most_growth * area * (on_plane ? 2 : 1)) return ended(Failure::area_grown);
+      if (std::abs(new_volume / volume - 1) > most_volume_error) return ended(Failure::volume_lost);
     }
     for (const Drop& drop : drops)
-      if (!is_sound(drop)) result.failure = Failure::unsound;
+      if (!is_sound(drop)) return ended(Failure::unsound);
   } catch (const Error&) {
-    result.failure = Failure::error;
+    return ended(Failure::error);
   }
-  return result;
+  return ended(Failure::none);
 }
 
 }  // namespace meniscus::bench

@@ -36,7 +36,8 @@ struct TrialCase {
 
 struct TrialResult {
   Failure failure = Failure::none;
-  int steps = 0;  ///< taken before it failed, or all
+  int steps = 0;               ///< taken before it failed, or all
+  std::size_t recoveries = 0;  ///< substeps of a level that were taken back and done again in halves
 };
 
 /// Pure flow by s = c dt^2, c = 2 sigma/(rho R): what a step of `calibrated` does in that time.

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -20,6 +21,37 @@ namespace {
 std::string text_of(const Cell& cell) {
   if (const double* number = std::get_if<double>(&cell)) return fmt::format("{:.6g}", *number);
   return std::get<std::string>(cell);
+}
+
+using Json = nlohmann::ordered_json;
+
+/// Whole numbers without a point; JSON has no NaN.
+Json json_of(const Cell& cell) {
+  const double* number = std::get_if<double>(&cell);
+  if (!number) return std::get<std::string>(cell);
+  if (!std::isfinite(*number)) return nullptr;
+  const double rounded = std::stod(text_of(cell));
+  if (rounded == std::floor(rounded) && std::abs(rounded) < 1e15) return static_cast<std::int64_t>(rounded);
+  return rounded;
+}
+
+/// Rows from `first` on that agree in the columns before `fold_from`, as one; `first` is then the next.
+Json folded_row(const std::vector<std::vector<Cell>>& rows, std::size_t& first, std::size_t fold_from) {
+  const std::vector<Cell>& row = rows[first];
+  std::size_t end = first + 1;
+  const auto same = [&](const std::vector<Cell>& other) {
+    return std::equal(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(fold_from), other.begin());
+  };
+  while (fold_from > 0 && end < rows.size() && same(rows[end])) ++end;
+  Json cells = Json::array();
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    Json list = Json::array();
+    for (std::size_t r = first; r < end; ++r) list.push_back(json_of(rows[r][c]));
+    const bool is_one = std::all_of(list.begin(), list.end(), [&](const Json& cell) { return cell == list[0]; });
+    cells.push_back(is_one ? list[0] : list);
+  }
+  first = end;
+  return cells;
 }
 
 std::string line_of(const std::vector<Cell>& row) {
@@ -56,20 +88,13 @@ void ChartTable::write(const std::filesystem::path& directory) const {
   std::string csv = fmt::format("# {}\n# meniscus {}, {}, {}\n", title_, version(), machine(), today());
   for (const std::string& text : notes_) csv += fmt::format("# {}\n", text);
   csv += fmt::format("{}\n", fmt::join(columns_, ","));
-  nlohmann::ordered_json json{{"title", title_}, {"version", version()}, {"machine", machine()},
-                              {"date", today()}, {"notes", notes_},      {"columns", columns_}};
+  for (const auto& row : rows_) csv += line_of(row) + '\n';
+  Json json{{"title", title_}, {"version", version()}, {"machine", machine()},
+            {"date", today()}, {"notes", notes_},      {"columns", columns_}};
+  if (fold_from_ > 0) json["lists_from"] = columns_[fold_from_];
   std::string rows;  // one a line
-  for (const auto& row : rows_) {
-    csv += line_of(row) + '\n';
-    nlohmann::ordered_json cells = nlohmann::ordered_json::array();
-    for (const Cell& cell : row) {  // JSON has no NaN
-      if (const double* number = std::get_if<double>(&cell))
-        cells.push_back(std::isfinite(*number) ? nlohmann::ordered_json(std::stod(text_of(cell))) : nullptr);
-      else
-        cells.push_back(std::get<std::string>(cell));
-    }
-    rows += (rows.empty() ? "" : ",\n") + cells.dump();
-  }
+  for (std::size_t r = 0; r < rows_.size();)
+    rows += (rows.empty() ? "" : ",\n") + folded_row(rows_, r, fold_from_).dump();
   std::string head = json.dump();
   head.pop_back();  // the brace
   std::filesystem::create_directories(directory);

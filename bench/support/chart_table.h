@@ -23,6 +23,10 @@ class ChartTable {
   /// A sentence that follows from the rows, such as a fitted exponent; it is printed, too.
   void note(std::string text);
 
+  /// In JSON, successive rows that agree in the first columns, up to `column`, become one row: from `column` on, its
+  /// cells are lists, or one value where all are the same. For large tables; nothing is lost.
+  void fold_from(std::size_t column) { fold_from_ = column; }
+
   /// Writes name.csv (comment lines with title, then version, machine and date, then the notes; then the names of
   /// the columns) and name.json into the directory, both whole or not at all. Throws FileError.
   void write(const std::filesystem::path& directory) const;
@@ -35,6 +39,7 @@ class ChartTable {
   std::vector<std::string> columns_;
   std::vector<std::vector<Cell>> rows_;
   std::vector<std::string> notes_;
+  std::size_t fold_from_ = 0;  ///< 0: rows stay as they are
 };
 
 /// Draws DIRECTORY/name.svg from DIRECTORY/name.csv with bench/charts/name.gp; says why not, if gnuplot is not

@@ -39,6 +39,7 @@ double cap_angle(double volume, double contact_radius) {
 Scene scene_of(const RestCase& rest) {
   Scene scene = default_scene();
   scene.model = rest.level;
+  scene.accuracy = rest.accuracy;
   scene.solids.emplace_back();
   scene.solids[0].advancing_angle = scene.solids[0].receding_angle = rest.angle;
   scene.time_step = rest.time_step;
@@ -65,6 +66,7 @@ RestRun run_to_rest(const RestCase& rest) {
     drops.push_back(start_of(rest));
     const double volume = drops.front().target_volume();
     Simulation simulation(scene_of(rest), std::move(drops));
+    run.choice = simulation.choice();
     const double start = cpu_seconds();
     double height = 0, radius = 0, checked = 0;
     int still = 0;  // looks in a row at which nothing had moved: at one look it may just turn round

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "meniscus/scene/scene.h"
-#include "meniscus/state/drop.h"
+#include "meniscus/simulation/choose_model.h"
 
 namespace meniscus::bench {
 
 /// A drop laid on the plane z = 0 without hysteresis, remeshing on, from a cap whose contact radius is off.
 struct RestCase {
   Level level = Level::calibrated;
-  double radius = 0.2;     ///< of the ball of its volume, cm
-  double angle = 1.5;      ///< radians
-  double edge_min = 0.02;  ///< cm; edge_max is three times it
+  std::optional<Accuracy> accuracy;  ///< the level "auto" instead
+  double radius = 0.2;               ///< of the ball of its volume, cm
+  double angle = 1.5;                ///< radians
+  double edge_min = 0.02;            ///< cm; edge_max is three times it
   double time_step = 1 / 240.0;
   double start_factor = 1.2;  ///< the starting cap's contact radius over the cap's at rest without gravity
   double longest = 2;         ///< s simulated at most
@@ -24,6 +24,7 @@ struct RestRun {
   double seconds = 0;      ///< simulated until height and radius had changed by less than 1e-4 over 0.05 s, twice
   double cpu_seconds = 0;  ///< until then
   bool rested = false;     ///< before RestCase::longest
+  ModelChoice choice;      ///< what it was run with
 };
 
 /// A run that throws or loses the drop gives NaN.

@@ -49,6 +49,7 @@ class SceneCheck {
   }
 
   void run() {
+    check_accuracy();
     check_mesh_band();
     check_solid_names();
     for (std::size_t i = 0; i < scene_.solids.size(); ++i) check_solid(scene_.solids[i], child_pointer("/solids", i));
@@ -83,6 +84,13 @@ class SceneCheck {
     const Place& a = deepest(root_, first).place;
     const Place& parent = deepest(root_, first.substr(0, first.rfind('/'))).place;
     return &a == &parent ? second : first;
+  }
+
+  void check_accuracy() {
+    const Node* model = root_.find("model");
+    if (!root_.find("accuracy") || !is_sound("/accuracy") || !is_sound("/model")) return;
+    if (model && model->scalar == "auto") return;
+    report("/accuracy", "only \"model\": \"auto\" has an accuracy; set that, or leave \"accuracy\" out");
   }
 
   void check_mesh_band() {

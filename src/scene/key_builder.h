@@ -183,6 +183,29 @@ class Keys {
   }
 
   // What follows speaks of the key added last.
+
+  // A choice has one more word, which stands for a state of its own.
+  Keys& also(const char* word, Predicate is_so, void (*make_so)(T&)) {
+    Key& key = keys_.back();
+    key.choices.push_back({word, true});
+    key.get = [get = key.get, word, is_so](const void* owner) {
+      return is_so(*static_cast<const T*>(owner)) ? Json(word) : get(owner);
+    };
+    key.set = [set = key.set, word, make_so](void* owner, const Json& value) {
+      if (value == word) return make_so(*static_cast<T*>(owner));
+      set(owner, value);
+    };
+    return *this;
+  }
+  // Sets a flag, too, if the file has the key.
+  template <class F>
+  Keys& flag(F field) {
+    keys_.back().set = [set = keys_.back().set, field](void* owner, const Json& value) {
+      set(owner, value);
+      field(*static_cast<T*>(owner)) = true;
+    };
+    return *this;
+  }
   Keys& required() {
     keys_.back().is_required = true;
     return *this;

@@ -173,15 +173,39 @@ Keys<SourceSpec> source_keys() {
   return keys;
 }
 
+// What the level "auto" chooses is no value of the scene's.
+template <bool GivenKeys::*flag>
+bool is_fixed(const Scene& scene) {
+  return !scene.accuracy || scene.given.*flag;
+}
+
+void add_model(Keys<Scene>& keys) {
+  keys.choice<Level>(
+          "model",
+          "how closely the motion follows physics; \"auto\" takes the cheapest that measurements say is enough",
+          {{"paper", Level::paper}, {"calibrated", Level::calibrated}, {"pressure", Level::pressure}},
+          {"dispersive", "potential"}, MENISCUS_FIELD(model))
+      .also(
+          "auto", [](const Scene& scene) { return scene.accuracy.has_value(); },
+          [](Scene& scene) { scene.accuracy = scene.accuracy.value_or(Accuracy::shape); });
+  keys.choice<Accuracy>(
+          "accuracy",
+          "what is enough for the model \"auto\", and for it only: sound surfaces (look), the shape at rest "
+          "within 1 %, or motion within 2 %, too",
+          {{"look", Accuracy::look}, {"shape", Accuracy::shape}, {"motion", Accuracy::motion}}, {},
+          MENISCUS_FIELD(accuracy))
+      .note("shape");
+  keys.integer("substeps", {1, 1000}, "steps that the model takes in one of time_step", MENISCUS_FIELD(substeps))
+      .flag(MENISCUS_FIELD(given.substeps))
+      .write_if(is_fixed<&GivenKeys::substeps>);
+}
+
 void add_sections(Keys<Scene>& keys) {
   keys.section("liquid", "the liquid; the defaults are water",
                Keys<Scene>()
                    .number("density", "g/cm^3", positive, "rho", MENISCUS_FIELD(liquid.density))
                    .number("surface_tension", "g/s^2", not_negative, "sigma", MENISCUS_FIELD(liquid.surface_tension))
                    .number("viscosity", "cm^2/s", not_negative, "nu, kinematic", MENISCUS_FIELD(liquid.viscosity)));
-  keys.choice<Level>("model", "how closely the motion follows physics",
-                     {{"paper", Level::paper}, {"calibrated", Level::calibrated}, {"pressure", Level::pressure}},
-                     {"dispersive", "potential", "auto"}, MENISCUS_FIELD(model));
   keys.section("paper", "coefficients of the paper's operators, used by the model \"paper\" only",
                Keys<Scene>()
                    .number("curvature_flow_coefficient", "cm^2/s", not_negative, "gamma (Eq 4)",
@@ -196,7 +220,9 @@ void add_sections(Keys<Scene>& keys) {
                                        {"local", VolumeCorrectionMethod::local},
                                        {"global", VolumeCorrectionMethod::global},
                                        {"local_then_global", VolumeCorrectionMethod::local_then_global}},
-                                      {}, MENISCUS_FIELD(volume_correction));
+                                      {}, MENISCUS_FIELD(volume_correction))
+      .flag(MENISCUS_FIELD(given.volume_correction))
+      .write_if(is_fixed<&GivenKeys::volume_correction>);
   keys.section(
       "mesh", "the lengths that remeshing keeps edges in",
       Keys<Scene>()
@@ -225,8 +251,12 @@ void add_sections(Keys<Scene>& keys) {
                                            SolverMethod::conjugate_gradient_incomplete_cholesky},
                                           {"cholesky", SolverMethod::cholesky}},
                                          {}, MENISCUS_FIELD(solver.method))
+                   .flag(MENISCUS_FIELD(given.solver_method))
+                   .write_if(is_fixed<&GivenKeys::solver_method>)
                    .number("tolerance", "", {0, 1, true, true}, "relative residual at which iterations stop",
-                           MENISCUS_FIELD(solver.tolerance)));
+                           MENISCUS_FIELD(solver.tolerance))
+                   .flag(MENISCUS_FIELD(given.solver_tolerance))
+                   .write_if(is_fixed<&GivenKeys::solver_tolerance>));
 }
 
 void add_lists(Keys<Scene>& keys) {
@@ -268,6 +298,7 @@ const std::vector<Key>& scene_keys() {
     keys.integer("steps_per_frame", {1, 1e6}, "steps from a frame to the next", MENISCUS_FIELD(steps_per_frame));
     keys.vector("gravity", "cm/s^2", any_number, "acceleration of gravity", MENISCUS_FIELD(gravity));
     keys.boolean("sleep", "drops at rest are not stepped until something comes near", MENISCUS_FIELD(sleep));
+    add_model(keys);
     add_sections(keys);
     add_lists(keys);
     return keys.take();

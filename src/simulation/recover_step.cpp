@@ -17,6 +17,10 @@ constexpr double most_growth = 2;           // of the surface
 constexpr double most_volume_change = 0.5;  // of the target, away from it
 constexpr int most_halvings = 6;
 
+/// Mending and remeshing a drop of so many faces that is not crumpled changes its volume by far less than this.
+constexpr std::size_t least_faces = 200;
+constexpr double most_remeshed_volume = 0.05;
+
 StepOptions at_half_step(StepOptions options) {
   options.paper.curvature_flow_coefficient *= 0.5;
   options.paper.boundary_force *= 0.5;
@@ -71,6 +75,22 @@ std::string blow_up(Drop& drop, const Eigen::Matrix3Xd& before) {
   const double off = (std::abs(changes.volume - target) - std::abs(changes.volume_before - target)) / target;
   if (off > most_volume_change) return fmt::format("the volume went off by {:.0f} %", 100 * off);
   return {};
+}
+
+void check_not_crumpled(const std::vector<Drop>& pieces, double volume_before, int id) {
+  double volume = 0;
+  std::size_t faces = 0;
+  for (const Drop& piece : pieces) {
+    if (touches_solid(piece)) return;
+    volume += piece.volume();
+    faces += piece.mesh().number_of_faces();
+  }
+  const double change = volume / volume_before - 1;
+  if (faces >= least_faces && std::abs(change) > most_remeshed_volume)
+    throw NumericsError(
+        fmt::format("drop {}: the surface crumpled: mending it changed the volume by {:.0f} %; use a "
+                    "smaller time step, or a level that holds there (docs/MODELS.md)",
+                    id, 100 * change));
 }
 
 void deform_or_recover(Drop& drop, double time, double dt, const StepOptions& options, StepReport& report,

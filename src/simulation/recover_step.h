@@ -19,6 +19,11 @@ namespace meniscus {
 /// in workspace().violent_faces (find_face_changes).
 std::string blow_up(Drop& drop, const Eigen::Matrix3Xd& before);
 
+/// Too long steps of Level::paper crumple a drop in the air bit by bit, with nothing in any one substep that would take
+/// it back; mending and remeshing then smooth the creases away, and a part of the drop with them. Throws NumericsError
+/// if `pieces`, what came of a drop of volume_before (cm^3), hold another volume; small drops and drops on solids pass.
+void check_not_crumpled(const std::vector<Drop>& pieces, double volume_before, int id);
+
 /// The operators of a substep: moves the drop from time - dt to time.
 using Deform = std::function<void(Drop& drop, double time, double dt, const StepOptions& options, StepReport& report)>;
 

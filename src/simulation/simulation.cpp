@@ -19,21 +19,33 @@ namespace meniscus {
 
 Simulation::Simulation(const Scene& scene) : solids_(make_solids(scene)), drops_(make_drops(scene, solids_)) {
   options_ = make_step_options(scene);
+  is_chosen_ = scene.accuracy.has_value();
   time_step_ = scene.time_step;
   sleep_ = scene.sleep;
   for (const Drop& drop : drops_) next_id_ = std::max(next_id_, drop.id() + 1);
+  take_choice(choose_model(scene, drops_, solids_));
 }
 
 Simulation::Simulation(const Scene& scene, std::vector<Drop> drops)
     : solids_(make_solids(scene)),
       drops_(std::move(drops)),
       options_(make_step_options(scene)),
+      is_chosen_(scene.accuracy.has_value()),
       sleep_(scene.sleep),
       time_step_(scene.time_step) {
   for (Drop& drop : drops_) {
     find_contact(drop, solids_, time_, contact_tolerance);
     next_id_ = std::max(next_id_, drop.id() + 1);
   }
+  take_choice(choose_model(scene, drops_, solids_));
+}
+
+void Simulation::take_choice(ModelChoice choice) {
+  choice_ = std::move(choice);
+  options_.level = choice_.level;
+  options_.volume_correction = choice_.volume_correction;
+  options_.solver.method = choice_.solver_method;
+  options_.solver.tolerance = choice_.solver_tolerance;
 }
 
 namespace {
@@ -44,12 +56,27 @@ constexpr std::size_t most_rows_to_lend_to = 16384;
 }  // namespace
 
 StepReport Simulation::step() {
-  const double target_volume_before = target_volume(), start = time_;
+  const auto substeps = static_cast<std::size_t>(choice_.substeps), first = num_steps_ * substeps;
   ++num_steps_;
-  time_ = static_cast<double>(num_steps_) * time_step_;
+  StepReport report;
+  for (std::size_t k = 1; k <= substeps; ++k) {
+    const double start = time_;
+    // The end of a step does not depend on how it was cut.
+    time_ = k == substeps ? static_cast<double>(num_steps_) * time_step_
+                          : static_cast<double>(first + k) * substep_length();
+    const StepReport of_substep = take_substep(start);
+    report += of_substep;
+    report.triangles = of_substep.triangles;
+    report.asleep_triangles = of_substep.asleep_triangles;
+  }
+  return report;
+}
+
+StepReport Simulation::take_substep(double start) {
+  const double target_volume_before = target_volume();
   StepReport report;
   report.volume_added = feed_.feed(drops_, solids_, start, time_, options_.band, next_id_).volume_added;
-  if (sleep_) wake_drops(drops_, solids_, time_, time_step_, sleep_options(options_.band));
+  if (sleep_) wake_drops(drops_, solids_, time_, substep_length(), sleep_options(options_.band));
   step_all(report);
   if (options_.merge) merge(drops_, places_, report);
   report.triangles = 0;
@@ -65,7 +92,7 @@ StepReport Simulation::step() {
 void Simulation::step_all(StepReport& report) {
   std::vector<Cluster> clusters;
   if (options_.merge && drops_.size() > 1)
-    clusters = clusters_of_approaching_drops(drops_, time_step_, options_.band.edge_max, paths_);
+    clusters = clusters_of_approaching_drops(drops_, substep_length(), options_.band.edge_max, paths_);
   else
     for (std::uint32_t d = 0; d < drops_.size(); ++d) clusters.push_back({{d}, 1});
   std::vector<std::vector<Drop>> results(clusters.size());
@@ -91,7 +118,7 @@ void Simulation::step_all(StepReport& report) {
 
 std::vector<Drop> Simulation::step_cluster(std::vector<Drop> drops, int substeps, StepReport& report) {
   BroadPhase broad_phase;
-  const double dt = time_step_ / substeps;
+  const double dt = substep_length() / substeps;
   const SleepOptions sleep = sleep_options(options_.band);
   for (int k = substeps - 1; k >= 0; --k) {
     std::vector<Drop> next;
@@ -136,7 +163,17 @@ void Simulation::share_volume(double lost) {
   for (Drop& drop : drops_) drop.set_target_volume(drop.target_volume() * (1 + lost / volume));
 }
 
-void Simulation::check_restored() const {
+void Simulation::finish_restored() {
+  check_contacts();
+  const ModelChoice& c = choice_;
+  if (c.level > Level::pressure || c.volume_correction > VolumeCorrectionMethod::local_then_global ||
+      c.solver_method > SolverMethod::cholesky || c.substeps < 1 || c.substeps > 1000 || !(c.solver_tolerance > 0) ||
+      !(c.solver_tolerance < 1))
+    throw FileError("the choice of a model is none; the checkpoint is damaged");
+  take_choice(choice_);
+}
+
+void Simulation::check_contacts() const {
   for (const Drop& drop : drops_)
     for (std::size_t v = 0; v < drop.num_rows(); ++v) {
       const auto solid = static_cast<std::int64_t>(drop.contact_solid()[v]);

@@ -232,8 +232,12 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
                       deform(moving, solids, to, step, at, sum);
                     });
   StageClock clock(options.clock, report);
+  const int id = drop.id();
+  const double volume = options.level == Level::paper ? drop.volume() : 0;
   const Eigen::Matrix3Xd& before = drop.workspace().kept.positions();
-  return remesh_and_split(std::move(drop), before, options, remesher, clock, report);
+  std::vector<Drop> pieces = remesh_and_split(std::move(drop), before, options, remesher, clock, report);
+  if (options.level == Level::paper) check_not_crumpled(pieces, volume, id);
+  return pieces;
 }
 
 }  // namespace

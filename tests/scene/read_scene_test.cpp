@@ -194,9 +194,8 @@ TEST(SceneErrors, ValuesOutOfRange) {
 }
 
 TEST(SceneErrors, WordsThatAreNoChoice) {
-  expect_messages(
-      with_drop(R"("model": "calibratd")"),
-      {"s.json:1:11 /model: \"calibratd\" is not one of paper, calibrated, pressure; did you mean \"calibrated\"?"});
+  expect_messages(with_drop(R"("model": "calibratd")"), {"s.json:1:11 /model: \"calibratd\" is not one of paper, "
+                                                         "calibrated, pressure, auto; did you mean \"calibrated\"?"});
   expect_messages(
       R"({"drops": [{"shape": "mesh", "file": "a.off"}]})",
       {"s.json:1:22 /drops/0/shape: \"mesh\" is not one of sphere, ellipsoid, box, cap, scatter; a mesh file has "
@@ -208,10 +207,35 @@ TEST(SceneErrors, WordsThatAreNoChoice) {
 }
 
 TEST(SceneErrors, WhatThisVersionCannotDo) {
-  for (const char* model : {"dispersive", "potential", "auto"}) {
+  for (const char* model : {"dispersive", "potential"}) {
     expect_messages(with_drop(std::string("\"model\": \"") + model + "\""),
                     {std::string("s.json:1:11 /model: \"") + model + "\" is not available in this version"});
   }
+}
+
+TEST(SceneErrors, AnAccuracyWithoutTheModelAuto) {
+  const std::string why = "/accuracy: only \"model\": \"auto\" has an accuracy; set that, or leave \"accuracy\" out";
+  expect_messages(with_drop(R"("accuracy": "look")"), {"s.json:1:14 " + why});
+  expect_messages(with_drop(R"("model": "pressure", "accuracy": "motion")"), {"s.json:1:35 " + why});
+  expect_messages(with_drop(R"("model": "auto", "accuracy": "motions")"),
+                  {"s.json:1:31 /accuracy: \"motions\" is not one of look, shape, motion; did you mean \"motion\"?"});
+  expect_messages(with_drop(R"("substeps": 0)"),
+                  {"s.json:1:14 /substeps: 0 is out of range; it must be >= 1, <= 1000"});
+}
+
+TEST(ReadScene, TheModelAutoHasAnAccuracyAndKnowsWhatIsGiven) {
+  EXPECT_FALSE(parse(with_drop("")).accuracy.has_value());
+  EXPECT_EQ(parse(with_drop(R"("model": "auto")")).accuracy, Accuracy::shape);
+  for (const char* keys : {R"("model": "auto", "accuracy": "motion")", R"("accuracy": "motion", "model": "auto")"})
+    EXPECT_EQ(parse(with_drop(keys)).accuracy, Accuracy::motion) << keys;
+  const Scene bare = parse(with_drop(R"("model": "auto", "solver": {})"));
+  EXPECT_FALSE(bare.given.volume_correction || bare.given.solver_method || bare.given.solver_tolerance ||
+               bare.given.substeps);
+  const Scene given = parse(with_drop(
+      R"("model": "auto", "volume_correction": "none", "substeps": 3, "solver": {"tolerance": 1e-8, "method": "auto"})"));
+  EXPECT_TRUE(given.given.volume_correction && given.given.solver_method && given.given.solver_tolerance &&
+              given.given.substeps);
+  EXPECT_EQ(given.substeps, 3);
 }
 
 TEST(SceneErrors, MissingKeys) {
@@ -290,7 +314,7 @@ TEST(SceneErrors, LargeScenesAreReadOrRefusedAtOnce) {
 TEST(SceneErrors, ColumnsCountCharactersAndLinesMayEndInAnyWay) {
   expect_messages("{\"$schema\": \"\u00e9\u4e2d\U0001F4A7\", \"x\\\"y\\\\\": 1,\r\n\t\"drops\": 1}",
                   {"s.json:1:20 /x\"y\\: unknown key; the keys here are time_step, frames, steps_per_frame, gravity, "
-                   "sleep, liquid, model, "
+                   "sleep, model, accuracy, substeps, liquid, "
                    "paper, volume_correction, mesh, topology, solver, solids, drops, sources",
                    "s.json:2:11 /drops: expected a list of objects, found a number"});
 }

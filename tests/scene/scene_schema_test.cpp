@@ -54,7 +54,7 @@ TEST(SceneSchema, IsJsonWithARangeUnitAndDefault) {
   EXPECT_EQ(step["exclusiveMinimum"], 0);
   EXPECT_EQ(step["maximum"], 1);
   EXPECT_EQ(step["default"], 1.0 / 240);
-  EXPECT_EQ(schema["properties"]["model"]["enum"], json::array({"paper", "calibrated", "pressure"}));
+  EXPECT_EQ(schema["properties"]["model"]["enum"], json::array({"paper", "calibrated", "pressure", "auto"}));
   EXPECT_EQ(schema["properties"]["gravity"]["default"], json::array({0, 0, -981}));
   EXPECT_EQ(schema["properties"]["solids"]["items"]["oneOf"].size(), 6u);
   EXPECT_EQ(schema["properties"]["drops"]["items"]["oneOf"].size(), 6u);

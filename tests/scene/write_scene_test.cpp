@@ -35,6 +35,18 @@ TEST(ResolvedScene, ExampleScenesReadBackTheSame) {
   }
 }
 
+TEST(ResolvedScene, WhatTheModelAutoChoosesIsNoValueOfTheScenes) {
+  const Scene scene = parse(with_drop(R"("model": "auto", "accuracy": "motion", "solver": {"tolerance": 1e-5})"));
+  const std::string text = resolved_scene(scene);
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_EQ(json["model"], "auto");
+  EXPECT_EQ(json["accuracy"], "motion");
+  EXPECT_EQ(json["solver"], nlohmann::json({{"tolerance", 1e-5}}));
+  for (const char* key : {"volume_correction", "substeps"}) EXPECT_FALSE(json.contains(key)) << key;
+  EXPECT_EQ(resolved_scene(parse(text)), text);
+  EXPECT_FALSE(nlohmann::json::parse(resolved_scene(parse(with_drop("")))).contains("accuracy"));
+}
+
 TEST(ResolvedScene, MovingSolidsAndCapsReadBackTheSame) {
   const Scene scene = parse(R"({"solids": [
       {"name": "p", "shape": "plane", "velocity": [1, 2, 3]},

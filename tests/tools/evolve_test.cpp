@@ -74,6 +74,46 @@ TEST_F(Evolve, SceneGivesFramesMeasuresAndASummary) {
   EXPECT_EQ(tool("check out/frame_0000.ply out/frame_0003.ply").code, 0);
 }
 
+TEST_F(Evolve, TheModelAutoIsSaidAndReported) {
+  const std::string settings = " --set model=auto --set accuracy=motion --set solver.tolerance=1e-5 ";
+  const Outcome dry = tool("evolve splash.json --dry-run -o out --json dry.json" + settings);
+  ASSERT_EQ(dry.code, 0) << dry.err;
+  EXPECT_TRUE(has(dry.err, "auto, motion: pressure in ")) << dry.err;
+  const Outcome outcome = tool("evolve splash.json -o out --json report.json" + settings);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "auto, motion: pressure in ")) << outcome.err;
+  const json chosen = report("dry.json")["auto"];
+  EXPECT_EQ(chosen["accuracy"], "motion");
+  EXPECT_EQ(chosen["model"], "pressure");
+  EXPECT_EQ(chosen["volume_correction"], "global");
+  EXPECT_EQ(chosen["solver"]["method"], "auto");
+  EXPECT_EQ(chosen["solver"]["tolerance"], 1e-5) << "the scene's own";
+  EXPECT_GE(chosen["substeps"].get<int>(), 3);
+  EXPECT_TRUE(chosen["is_met"].is_boolean());
+  EXPECT_FALSE(chosen["why"].get<std::string>().empty());
+  EXPECT_EQ(report("report.json")["auto"], chosen);
+  const json run = report("out/run.json");
+  EXPECT_EQ(run["auto"], chosen);
+  EXPECT_EQ(run["steps"], 12) << "steps are the scene's, not the model's";
+  EXPECT_EQ(run["resolved_scene"]["model"], "auto");
+  EXPECT_FALSE(run["resolved_scene"].contains("substeps")) << "the scene has not said it";
+  write("said.json", run["resolved_scene"].dump());
+  ASSERT_EQ(tool("evolve said.json -o again").code, 0);
+  EXPECT_EQ(text("again/frame_0003.ply"), text("out/frame_0003.ply"));
+  ASSERT_EQ(tool("evolve splash.json -o plain").code, 0);
+  EXPECT_FALSE(report("plain/run.json").contains("auto"));
+}
+
+TEST_F(Evolve, VolumeThatGoesAmissIsSaidOnce) {
+  const Outcome outcome = tool("evolve splash.json -o out --frames 30 --set volume_correction=none");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::size_t first = outcome.err.find("than they ought to");
+  ASSERT_NE(first, std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("than they ought to", first + 10), std::string::npos) << outcome.err;
+  EXPECT_GT(report("out/run.json")["volume"]["worst_relative_error"].get<double>(), 0.05);
+  EXPECT_FALSE(has(tool("evolve splash.json -o kept").err, "than they ought to"));
+}
+
 TEST_F(Evolve, FramesAreTheSameOnOneThreadAndTwo) {
   ASSERT_EQ(tool("evolve splash.json -o one --threads 1").code, 0);
   ASSERT_EQ(tool("evolve splash.json -o two --threads 2").code, 0);

@@ -91,6 +91,18 @@ TEST_F(Resume, WithoutASceneTheCheckpointsOwnIsTaken) {
   EXPECT_EQ(again.code, 2) << "there is no checkpoint, and no scene to start with";
 }
 
+/// The choice was made for the drops at the start, which are no more.
+TEST_F(Resume, WhatTheModelAutoChoseIsKept) {
+  const std::string settings = "--set model=auto --set accuracy=motion ";
+  ASSERT_EQ(tool("evolve scene.json --overwrite -o whole " + settings).code, 0);
+  const std::string arguments = "scene.json --checkpoint-every 1 -o out " + settings;
+  ASSERT_EQ(stopped_at("out/frame_0002.ply", "KILL", arguments).code, 137);
+  const Outcome resumed = tool("evolve --resume -o out");
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  expect_as_whole("out");
+  EXPECT_EQ(report("out/run.json")["auto"], report("whole/run.json")["auto"]);
+}
+
 TEST_F(Resume, OfACompleteRunDoesNothing) {
   const Outcome outcome = tool("evolve scene.json --resume -o whole");
   EXPECT_EQ(outcome.code, 0);

@@ -96,13 +96,31 @@ struct Topology {
   bool split = true;        ///< necks pinch off
 };
 
+/// What the level "auto" has to reach, in numbers: simulation/choose_model.h.
+enum class Accuracy {
+  look,    ///< sound surfaces that keep their volume, at the least cost
+  shape,   ///< and drops at rest of the right shape
+  motion,  ///< and drops that swing at the right frequency, undamped but for their viscosity
+};
+
+/// What of the keys that the level "auto" may choose a scene has set itself: that is left alone.
+struct GivenKeys {
+  bool volume_correction = false;
+  bool solver_method = false;
+  bool solver_tolerance = false;
+  bool substeps = false;
+};
+
 struct Scene {
   double time_step = 1.0 / 240;  ///< of one step, s
   int frames = 120;              ///< frames after the first, which shows the start
   int steps_per_frame = 4;
   Eigen::Vector3d gravity{0, 0, -981};  ///< cm/s^2
   Liquid liquid;
-  Level model = Level::calibrated;
+  Level model = Level::calibrated;   ///< without effect if there is an accuracy
+  std::optional<Accuracy> accuracy;  ///< the level "auto": the model, and what is not given, is chosen for it
+  GivenKeys given;                   ///< read only if there is an accuracy
+  int substeps = 1;                  ///< steps that the model takes in one of time_step
   PaperCoefficients paper;
   VolumeCorrectionMethod volume_correction = VolumeCorrectionMethod::global;
   EdgeBand mesh;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meniscus/scene/scene.h"
+#include "meniscus/simulation/choose_model.h"
 #include "meniscus/simulation/merge_touching.h"
 #include "meniscus/simulation/source.h"
 #include "meniscus/simulation/step.h"
@@ -22,7 +23,7 @@ std::vector<Solid> make_solids(const Scene& scene);
 /// gives them all. Throws FileError, UsageError or GeometryError, naming the drop.
 std::vector<Drop> make_drops(const Scene& scene, const std::vector<Solid>& solids);
 
-/// The options of a step that a scene asks for.
+/// The options of a step that a scene asks for. An accuracy is not looked at: see with_choice.
 StepOptions make_step_options(const Scene& scene);
 
 /// Drops and solids that go through time together. Drops are stepped in parallel (TBB); the result
@@ -35,16 +36,19 @@ class Simulation {
   /// The scene's solids and parameters, with these drops instead of its own.
   Simulation(const Scene& scene, std::vector<Drop> drops);
 
-  /// Takes one step of scene.time_step. Throws NumericsError (SoundnessError included); the state is then that before
-  /// the step for some drops and after it for others, and fit for inspection only.
+  /// Takes one step of scene.time_step, in as many steps of the model as the choice says. Throws NumericsError
+  /// (SoundnessError included); the state is then that before the step for some drops and after it for others, and fit
+  /// for inspection only.
   StepReport step();
 
   const std::vector<Drop>& drops() const { return drops_; }
   const std::vector<Solid>& solids() const { return solids_; }
-  double time() const { return time_; }                 ///< s
-  std::size_t num_steps() const { return num_steps_; }  ///< taken so far
-  double volume() const;                                ///< of all drops, cm^3
-  double target_volume() const;                         ///< of all drops, cm^3
+  double time() const { return time_; }                  ///< s
+  std::size_t num_steps() const { return num_steps_; }   ///< taken so far
+  const ModelChoice& choice() const { return choice_; }  ///< what steps are taken with
+  const StepOptions& options() const { return options_; }
+  double volume() const;         ///< of all drops, cm^3
+  double target_volume() const;  ///< of all drops, cm^3
   /// For stage times: see StepOptions::clock.
   void set_clock(double (*clock)()) { options_.clock = clock; }
   /// Whether an independent judge looks at the drops; a step then takes many times longer.
@@ -59,15 +63,21 @@ class Simulation {
     archive("next_id", self.next_id_);
     archive("drops", self.drops_);
     archive("feed", self.feed_);
-    if constexpr (!std::is_const_v<Self>) self.check_restored();
+    if (self.is_chosen_) archive("choice", self.choice_);  // made for the drops at the start
+    if constexpr (!std::is_const_v<Self>) self.finish_restored();
   }
 
  private:
+  /// One step of the model, from `start` (s) to time_.
+  StepReport take_substep(double start);
+  double substep_length() const { return time_step_ / choice_.substeps; }  ///< s
+  void take_choice(ModelChoice choice);
   void step_all(StepReport& report);
   std::vector<Drop> step_cluster(std::vector<Drop> drops, int substeps, StepReport& report);
   void merge(std::vector<Drop>& drops, BroadPhase& broad_phase, StepReport& report);
-  /// Throws FileError if a drop touches a solid that is not there.
-  void check_restored() const;
+  /// Takes the choice that was read. Throws FileError if that is none, or if a drop touches a solid that is not there.
+  void finish_restored();
+  void check_contacts() const;
   /// Gives all drops, in proportion, the volume (cm^3) of those that were too small to go on.
   void share_volume(double lost);
   void verify(const StepReport& report, double target_volume_before) const;
@@ -79,6 +89,8 @@ class Simulation {
   tbb::enumerable_thread_specific<Workspace> workspaces_;  ///< lent to small drops in turn
   BroadPhase paths_, places_;  ///< of swept boxes before a step and of boxes after it
   SourceFeed feed_;
+  ModelChoice choice_;
+  bool is_chosen_ = false;  ///< the scene left the choice to the level "auto"
   bool sleep_ = false;
   double time_step_ = 0, time_ = 0;
   std::size_t num_steps_ = 0;

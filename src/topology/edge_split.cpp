@@ -64,6 +64,18 @@ bool would_fold_at(const RemeshState& state, HalfedgeIndex h, const Eigen::Vecto
   return turns_too_far((m - a).cross(o - a)) || turns_too_far((b - m).cross(o - m));
 }
 
+/// An edge that is long only because the surface curves is split if what comes of it is clearly shorter: halves always
+/// are, the two medians where no side of the faces is much longer. Weights change with every split; on a fold, where
+/// normals mean nothing, medians as long as the edge would be split without end.
+bool would_refine(const RemeshState& state, HalfedgeIndex h, const Eigen::Vector3d& middle) {
+  constexpr double clearly_shorter = 0.95;
+  const double length2 = (state.point(state.mesh.target(h)) - state.point(state.mesh.source(h))).squaredNorm();
+  if (state.is_long(length2) || state.inside_wetted_area(h)) return true;
+  const double most = clearly_shorter * clearly_shorter * length2;
+  return (state.point(state.apex(h)) - middle).squaredNorm() < most &&
+         (state.point(state.apex(state.mesh.opposite(h))) - middle).squaredNorm() < most;
+}
+
 Contact contact_of_midpoint(const RemeshState& state, HalfedgeIndex h) {
   if (state.inside_wetted_area(h)) return Contact::wetted;
   return state.is_contact_line(h) ? Contact::line : Contact::free;
@@ -87,6 +99,7 @@ Refusal try_split(RemeshState& state, HalfedgeIndex h) {
   const auto a = mesh.source(h), b = mesh.target(h);
   const Eigen::Vector3d middle = 0.5 * (state.point(a) + state.point(b));
   if (state.is_forbidden(middle)) return Refusal::near_intersection;
+  if (!would_refine(state, h, middle)) return Refusal::not_wanted;
 
   const Contact contact = contact_of_midpoint(state, h);
   Eigen::Vector3d m = middle;

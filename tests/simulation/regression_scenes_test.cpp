@@ -27,7 +27,8 @@ TEST_P(FailedScenes, StaySoundAndLoseNothing) {
   EXPECT_NEAR(simulation.volume(), there, 0.01 * there);
 }
 
-INSTANTIATE_TEST_SUITE_P(Regressions, FailedScenes, testing::Values("refinement_without_end"),
+INSTANTIATE_TEST_SUITE_P(Regressions, FailedScenes,
+                         testing::Values("refinement_without_end", "top_falls_on_wetted_area"),
                          [](const auto& scene) { return scene.param; });
 
 }  // namespace

@@ -242,7 +242,10 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& 
     if (taken.empty()) count_down_watch(drop, options.remesh.band.edge_max);
     relax(drop, taken, region, options.remesh.band.edge_max);
     const bool is_measurable = std::abs(ledger.volume / drop.target_volume() - 1) < largest_volume_error;
-    if (!taken.empty() && is_measurable) restore_ledger(drop, ledger, false);
+    if (!taken.empty() && is_measurable) {
+      offset_around(drop, taken, ledger.volume, region);
+      restore_ledger(drop, ledger, false);
+    }
     return std::nullopt;
   }
   ++report.folds;

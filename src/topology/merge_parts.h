@@ -4,6 +4,7 @@
 #include "face_grid.h"
 #include "meniscus/state/ledger.h"
 #include "meniscus/topology/merge.h"
+#include "watched_region.h"
 
 #include <Eigen/Geometry>
 
@@ -24,6 +25,10 @@ std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, co
 
 /// Whether any two of the faces meet elsewhere than in what they share.
 bool meet_each_other(const Drop& drop, const std::vector<FaceBox>& faces);
+
+/// Moves the free vertices that are not `held` along their normals until the drop encloses `volume` (cm^3), or half or
+/// a quarter of that way, or none of it, as long as no faces of the region meet.
+void offset_around(Drop& drop, const std::vector<std::uint32_t>& held, double volume, const WatchedRegion& region);
 
 /// unite_with_itself of the given faces, which are sorted by index.
 BooleanResult unite_with_itself(const MeshView& mesh, const std::vector<FaceBox>& faces, bool keep_cavities);

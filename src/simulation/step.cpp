@@ -12,6 +12,7 @@
 #include "meniscus/operators/volume_correction.h"
 #include "meniscus/state/contact_line.h"
 #include "recover_step.h"
+#include "round_off.h"
 #include "step_parts.h"
 
 #include <fmt/format.h>
@@ -220,14 +221,31 @@ void deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt
   if (options.volume_correction == VolumeCorrectionMethod::none) report.skip(Stage::volume_correction);
 }
 
+std::vector<Drop> one_piece(Drop drop) {
+  std::vector<Drop> pieces;
+  pieces.push_back(std::move(drop));
+  return pieces;
+}
+
 /// One substep: operators, remesh, split.
 std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                           const StepOptions& options, Remesher& remesher, StepReport& report) {
-  const KeptState kept = deform_or_recover(drop, time, dt, options, report,
-                                           [&](Drop& moving, double to, double step, const StepOptions& at,
-                                               StepReport& sum) { deform(moving, solids, to, step, at, sum); });
+  const auto move = [&](Drop& moving, double to, double step, const StepOptions& at, StepReport& sum) {
+    deform(moving, solids, to, step, at, sum);
+  };
+  KeptState kept;
+  try {
+    kept = deform_or_recover(drop, time, dt, options, report, move);
+  } catch (const NumericsError&) {
+    if (!is_speck(drop, options.band)) throw;
+    ++report.rounded;
+    return one_piece(rounded_off(drop, solids, time, dt, options.band));
+  }
   StageClock clock(options.clock, report);
-  return remesh_and_split(std::move(drop), kept.positions(), options, remesher, clock, report);
+  const std::uint64_t version = drop.topology_version();
+  std::vector<Drop> pieces = remesh_and_split(std::move(drop), kept.positions(), options, remesher, clock, report);
+  report.rounded += round_off_knots(pieces, version, solids, time, options.band);
+  return pieces;
 }
 
 }  // namespace
@@ -254,6 +272,7 @@ StepReport& StepReport::operator+=(const StepReport& other) {
   overlap += other.overlap;
   rejected += other.rejected;
   recoveries += other.recoveries;
+  rounded += other.rounded;
   asleep += other.asleep;
   asleep_triangles += other.asleep_triangles;
   volume_added += other.volume_added;
@@ -271,8 +290,7 @@ std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double 
   int left = num_substeps(drop, solids, time, dt, options);
   report.substeps = std::max(report.substeps, left);
   const double part = dt / left, inflow = drop.inflow();
-  std::vector<Drop> pieces;
-  pieces.push_back(std::move(drop));
+  std::vector<Drop> pieces = one_piece(std::move(drop));
   while (left > 0 && pieces.size() == 1) {
     --left;
     pieces.front().set_target_volume(pieces.front().target_volume() + inflow * part);

@@ -2,6 +2,7 @@
 #include "meniscus/core/error.h"
 #include "meniscus/operators/pressure.h"
 #include "recover_step.h"
+#include "round_off.h"
 #include "step_parts.h"
 
 #include <fmt/format.h>
@@ -114,12 +115,22 @@ std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, 
     }
     KeptState kept;
     kept.keep(traveller.drop);
-    take_substep(traveller, solids, time, least_share * dt, options, kept, clock, report);
+    try {
+      take_substep(traveller, solids, time, least_share * dt, options, kept, clock, report);
+    } catch (const NumericsError&) {
+      if (!is_speck(traveller.drop, options.band)) throw;
+      ++report.rounded;
+      traveller.drop.set_target_volume(traveller.drop.target_volume() + traveller.drop.inflow() * traveller.left);
+      arrived.push_back(rounded_off(traveller.drop, solids, time, traveller.left, options.band));
+      continue;
+    }
     report.substeps = std::max(report.substeps, traveller.substeps);
     const double inflow = traveller.drop.inflow();
+    const std::uint64_t version = traveller.drop.topology_version();
     std::vector<Drop> pieces =
         remesh_and_split(std::move(traveller.drop), kept.positions(), options, remesher, clock, report);
     if (pieces.size() > 1) keep_inflow(pieces, solids, inflow);
+    report.rounded += round_off_knots(pieces, version, solids, time - traveller.left, options.band);
     for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
       on_the_way.push_back({std::move(*piece), traveller.left, traveller.next, traveller.substeps});
   }

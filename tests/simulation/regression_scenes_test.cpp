@@ -28,7 +28,8 @@ TEST_P(FailedScenes, StaySoundAndLoseNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Regressions, FailedScenes,
-                         testing::Values("refinement_without_end", "top_falls_on_wetted_area"),
+                         testing::Values("refinement_without_end", "top_falls_on_wetted_area", "speck_knots",
+                                         "speck_blows_up"),
                          [](const auto& scene) { return scene.param; });
 
 }  // namespace

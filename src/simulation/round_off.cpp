@@ -29,7 +29,8 @@ bool is_watched(const Drop& drop) {
   return std::any_of(watch, watch + drop.num_rows(), [](std::uint8_t w) { return w != 0; });
 }
 
-bool meets_itself(const Drop& drop) {
+bool is_knot(const Drop& drop) {
+  if (drop.mesh().number_of_faces() <= 4 || !(drop.volume() > 0)) return true;
   MeshData surface;
   const ConstColumns x = drop.positions();
   for (std::uint32_t v = 0; v < drop.num_rows(); ++v) surface.points.push_back({x(0, v), x(1, v), x(2, v)});
@@ -66,7 +67,7 @@ std::size_t round_off_knots(std::vector<Drop>& pieces, std::uint64_t version, co
                             double time, const EdgeBand& band) {
   std::size_t rounded = 0;
   for (Drop& piece : pieces) {
-    if (!is_speck(piece, band) || (piece.topology_version() == version && !is_watched(piece)) || !meets_itself(piece))
+    if (!is_speck(piece, band) || (piece.topology_version() == version && !is_watched(piece)) || !is_knot(piece))
       continue;
     piece = rounded_off(piece, solids, time, 0, band);
     ++rounded;

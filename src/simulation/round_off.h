@@ -19,9 +19,9 @@ bool is_speck(const Drop& drop, const EdgeBand& band);
 /// touches nothing. Keeps that velocity, id, target volume and inflow.
 Drop rounded_off(const Drop& drop, const std::vector<Solid>& solids, double time, double dt, const EdgeBand& band);
 
-/// Rounds off those of a substep's pieces that are specks and meet themselves: few vertices leave no other way to mend
-/// them. Looks at what changed only: pieces whose topology version is not `version`, or that are watched for folds.
-/// Returns how many.
+/// Rounds off those of a substep's pieces that are specks and meet themselves, are turned over or have but four
+/// faces: few vertices leave no other way to mend them. Looks at what changed only: pieces whose topology version is
+/// not `version`, or that are watched for folds. Returns how many.
 std::size_t round_off_knots(std::vector<Drop>& pieces, std::uint64_t version, const std::vector<Solid>& solids,
                             double time, const EdgeBand& band);
 

@@ -242,10 +242,7 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
     return one_piece(rounded_off(drop, solids, time, dt, options.band));
   }
   StageClock clock(options.clock, report);
-  const std::uint64_t version = drop.topology_version();
-  std::vector<Drop> pieces = remesh_and_split(std::move(drop), kept.positions(), options, remesher, clock, report);
-  report.rounded += round_off_knots(pieces, version, solids, time, options.band);
-  return pieces;
+  return remesh_and_split(std::move(drop), kept.positions(), solids, time, options, remesher, clock, report);
 }
 
 }  // namespace

@@ -126,11 +126,10 @@ std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, 
     }
     report.substeps = std::max(report.substeps, traveller.substeps);
     const double inflow = traveller.drop.inflow();
-    const std::uint64_t version = traveller.drop.topology_version();
     std::vector<Drop> pieces =
-        remesh_and_split(std::move(traveller.drop), kept.positions(), options, remesher, clock, report);
+        remesh_and_split(std::move(traveller.drop), kept.positions(), solids, time - traveller.left, options, remesher,
+                         clock, report);
     if (pieces.size() > 1) keep_inflow(pieces, solids, inflow);
-    report.rounded += round_off_knots(pieces, version, solids, time - traveller.left, options.band);
     for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
       on_the_way.push_back({std::move(*piece), traveller.left, traveller.next, traveller.substeps});
   }

@@ -92,7 +92,10 @@ void take_substep(Traveller& traveller, const std::vector<Solid>& solids, double
       substep_or_recover(traveller.drop, solids, time - traveller.left, std::min(traveller.next, traveller.left),
                          shortest, options, kept, clock, report);
   traveller.left -= dt;
-  if (traveller.left < 0.5 * shortest) traveller.left = 0;
+  if (traveller.left < 0.5 * shortest) {
+    traveller.drop.set_target_volume(traveller.drop.target_volume() + traveller.drop.inflow() * traveller.left);
+    traveller.left = 0;
+  }
   traveller.next = 2 * dt;
   ++traveller.substeps;
 }
@@ -126,9 +129,8 @@ std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, 
     }
     report.substeps = std::max(report.substeps, traveller.substeps);
     const double inflow = traveller.drop.inflow();
-    std::vector<Drop> pieces =
-        remesh_and_split(std::move(traveller.drop), kept.positions(), solids, time - traveller.left, options, remesher,
-                         clock, report);
+    std::vector<Drop> pieces = remesh_and_split(std::move(traveller.drop), kept.positions(), solids,
+                                                time - traveller.left, options, remesher, clock, report);
     if (pieces.size() > 1) keep_inflow(pieces, solids, inflow);
     for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
       on_the_way.push_back({std::move(*piece), traveller.left, traveller.next, traveller.substeps});

@@ -84,6 +84,12 @@ bool has_longer_side(const RemeshState& state, HalfedgeIndex h) {
   return false;
 }
 
+/// The apex of the face left of h lies where the new vertex would.
+bool is_taken(const RemeshState& state, HalfedgeIndex h, const Eigen::Vector3d& m) {
+  constexpr double apart = 0.05;
+  return (state.point(state.apex(h)) - m).squaredNorm() < apart * apart * length2(state, h);
+}
+
 /// Whether to split h at m, or to do it in the next round, after a longer side. Weights change with every split: on a
 /// fold, where faces have no area, medians as long as the edge would be split in turn, without end.
 bool may_split(RemeshState& state, HalfedgeIndex h, const Eigen::Vector3d& m) {
@@ -116,6 +122,7 @@ Refusal try_split(RemeshState& state, HalfedgeIndex h) {
   const auto a = mesh.source(h), b = mesh.target(h);
   const Eigen::Vector3d middle = 0.5 * (state.point(a) + state.point(b));
   if (state.is_forbidden(middle)) return Refusal::near_intersection;
+  if (is_taken(state, h, middle) || is_taken(state, mesh.opposite(h), middle)) return Refusal::would_be_sliver;
   if (!may_split(state, h, middle)) return Refusal::not_wanted;
 
   const Contact contact = contact_of_midpoint(state, h);

@@ -208,6 +208,8 @@ void deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt
   if (!jet) remove_tangential_deformation(drop, geometry, dt);
   clock.done(Stage::damping);
 
+  // What lifting films adds is taken from elsewhere, and what sank in by that is lifted for good.
+  if (forces.colliding > 0) lift_films(drop, solids, time);
   const VolumeCorrectionReport volume = correct_volume(drop, geometry, dt, volume_options(options, drop));
   report.limited_volume += volume.limited;
   if (!std::isnan(volume.relative_error))

@@ -208,6 +208,10 @@ class TakeBack {
 
 }  // namespace
 
+std::vector<std::array<std::uint32_t, 2>> pairs_that_meet(const Drop& drop, std::vector<FaceBox> faces) {
+  return FoldFinder(drop, std::move(faces)).meeting();
+}
+
 bool meet_each_other(const Drop& drop, const std::vector<FaceBox>& faces) {
   const MeshView mesh = view_of(drop);
   const FaceGrid grid(faces);

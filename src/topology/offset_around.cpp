@@ -38,9 +38,9 @@ void offset(Drop& drop, const SurfaceGeometry& geometry, const std::vector<doubl
     if (share[v] > 0) drop.positions().col(v) = before.col(v) + d * share[v] * geometry.normal(v);
 }
 
-/// The d (cm) at which the drop encloses `volume`, by secants. Moves the vertices.
-double find_offset(Drop& drop, const SurfaceGeometry& geometry, const std::vector<double>& share,
-                   const Eigen::Matrix3Xd& before, double volume) {
+/// Moves the vertices by the d at which the drop encloses `volume`, found by secants.
+void find_offset(Drop& drop, const SurfaceGeometry& geometry, const std::vector<double>& share,
+                 const Eigen::Matrix3Xd& before, double volume) {
   constexpr int rounds = 4;
   constexpr double enough = 1e-9;
   double area = 0, d = 0, missing = volume - geometry.volume();
@@ -53,22 +53,24 @@ double find_offset(Drop& drop, const SurfaceGeometry& geometry, const std::vecto
     missing = volume - drop.volume();
     area = (missing_old - missing) / more;
   }
-  return d;
 }
 
 }  // namespace
 
-void offset_around(Drop& drop, const std::vector<std::uint32_t>& held, double volume, const WatchedRegion& region) {
+void offset_around(Drop& drop, std::vector<std::uint32_t> held, double volume, const WatchedRegion& region) {
+  constexpr int most_rounds = 6;
   SurfaceGeometry geometry;
   geometry.compute(std::as_const(drop).positions(), drop.connectivity());
-  const std::vector<double> share = shares_of_offset(drop, held);
   const Eigen::Matrix3Xd before = drop.positions();
-  const double d = find_offset(drop, geometry, share, before, volume);
-  for (const double part : {1.0, 0.5, 0.25}) {
-    offset(drop, geometry, share, before, part * d);
-    if (!meet_each_other(drop, region.faces_of(drop))) return;
+  for (int round = 0; round < most_rounds; ++round) {
+    find_offset(drop, geometry, shares_of_offset(drop, held), before, volume);
+    const auto meeting = pairs_that_meet(drop, region.faces_of(drop));
+    if (meeting.empty()) return;
+    for (const auto& pair : meeting)
+      for (const auto face : pair)
+        for (const auto v : drop.connectivity().triangles()[face]) held.push_back(v);
+    drop.positions() = before;
   }
-  drop.positions() = before;
 }
 
 }  // namespace meniscus

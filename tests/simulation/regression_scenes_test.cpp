@@ -29,7 +29,8 @@ TEST_P(FailedScenes, StaySoundAndLoseNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Regressions, FailedScenes,
                          testing::Values("refinement_without_end", "top_falls_on_wetted_area", "speck_knots",
-                                         "pressure_film_sinks", "source_fills_with_a_rush", "speck_blows_up"),
+                                         "lift_adds_volume", "pressure_film_sinks", "source_fills_with_a_rush",
+                                         "speck_blows_up"),
                          [](const auto& scene) { return scene.param; });
 
 }  // namespace

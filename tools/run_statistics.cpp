@@ -103,6 +103,7 @@ Json RunStatistics::to_json() const {
             {"folds_mended", sum_.folds},
             {"vertices_taken_back", sum_.taken_back},
             {"steps_recovered", sum_.recoveries},
+            {"specks_rounded_off", sum_.rounded},
             {"splits", sum_.cuts},
             {"deleted", sum_.deleted},
             {"retries", sum_.retries},

@@ -2,9 +2,12 @@
 #include "meniscus/operators/external_forces.h"
 
 #include "meniscus/core/error.h"
+#include "meniscus/operators/lift_films.h"
 #include "meniscus/state/contact_line.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace meniscus {
 namespace {
@@ -189,12 +192,15 @@ ExternalForcesReport apply_external_forces(Drop& drop, const std::vector<Solid>&
 
   std::vector<std::uint8_t>& stays = drop.workspace().fixed;
   mark_wetted(drop, stays);
+  std::vector<std::uint32_t> landed;
   for (std::uint32_t i = 0; i < n; ++i) {
     if (drop.connectivity().degree(i) == 0) continue;
     const bool colliding = collider.collide(i, contact[i], stays[i] != 0);
+    if (colliding && !is_colliding(contact[i])) landed.push_back(i);
     contact[i] = colliding ? Contact::wetted : Contact::free;
-    report.colliding += colliding;
   }
+  lift_landed(drop, solids, time, landed, stays);
+  report.colliding = static_cast<std::size_t>(std::count_if(contact, contact + n, is_colliding));
   mark_contact_line(drop);
   return report;
 }

@@ -3,6 +3,10 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <array>
+#include <optional>
+
 namespace meniscus {
 namespace {
 
@@ -14,27 +18,58 @@ bool is_within(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Ve
   return (u <= 0 && v <= 0 && w <= 0) || (u >= 0 && v >= 0 && w >= 0);
 }
 
-constexpr double film_thickness = 0.02;  // of the mean length of a vertex' edges
+constexpr double film_thickness = 0.02, largest_sagitta = 0.25;  // of the mean length of a vertex' edges
 
-bool is_over_wetted_area(const Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n) {
-  const ConstColumns x = drop.positions();
-  const Contact* contact = drop.contact();
-  for (const auto& [a, b, c] : drop.connectivity().triangles()) {
-    if (a == Connectivity::removed || a == v || b == v || c == v) continue;
-    if (!is_colliding(contact[a]) || !is_colliding(contact[b]) || !is_colliding(contact[c])) continue;
-    const Vector3d p_a = x.col(a), p_b = x.col(b), p_c = x.col(c);
-    if ((p_b - p_a).cross(p_c - p_a).dot(n) < 0 && is_within(p, p_a, p_b, p_c, n)) return true;
+/// The faces of a drop that lie on solids.
+class WettedFaces {
+ public:
+  /// Those of three vertices for which `is_wet` holds.
+  template <class IsWet>
+  WettedFaces(const Drop& drop, IsWet is_wet) : drop_(drop) {
+    const ConstColumns x = drop.positions();
+    for (const auto& [a, b, c] : drop.connectivity().triangles()) {
+      if (a == Connectivity::removed || !is_wet(a) || !is_wet(b) || !is_wet(c)) continue;
+      faces_.push_back({{a, b, c}, {}});
+      for (const auto v : faces_.back().vertices) faces_.back().box.extend(Vector3d(x.col(v)));
+    }
   }
-  return false;
-}
+  bool empty() const { return faces_.empty(); }
 
-/// Puts a vertex that is below p, on a solid of normal n, above it.
-void lift(Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n) {
-  Columns x = drop.positions();
+  /// Whether a point p of a solid of normal n lies below a vertex' film: within a face that is not at the vertex.
+  bool cover(const Vector3d& p, const Vector3d& n, std::uint32_t vertex) const {
+    const ConstColumns x = drop_.positions();
+    return std::any_of(faces_.begin(), faces_.end(), [&](const Face& face) {
+      const auto [a, b, c] = face.vertices;
+      if (a == vertex || b == vertex || c == vertex) return false;
+      if (face.box.squaredExteriorDistance(p) > 0.25 * face.box.diagonal().squaredNorm()) return false;
+      const Vector3d p_a = x.col(a), p_b = x.col(b), p_c = x.col(c);
+      return (p_b - p_a).cross(p_c - p_a).dot(n) < 0 && is_within(p, p_a, p_b, p_c, n);
+    });
+  }
+
+ private:
+  struct Face {
+    std::array<std::uint32_t, 3> vertices;
+    Eigen::AlignedBox3d box;
+  };
+  const Drop& drop_;
+  std::vector<Face> faces_;
+};
+
+/// Puts a vertex that is below p, on a solid of normal n, above it; what velocity it has into the solid ends there.
+void lift(Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n, const Vector3d& solid_velocity) {
+  Columns x = drop.positions(), u = drop.velocities();
   const Ring ring = drop.connectivity().ring(v);
-  double length = 0;
-  for (int k = 0; k < ring.degree; ++k) length += (x.col(ring.neighbour[k]) - p).norm() / ring.degree;
-  x.col(v) = p + film_thickness * length * n;
+  double length = 0, lowest = 0;
+  for (int k = 0; k < ring.degree; ++k) {
+    const Vector3d edge = x.col(ring.neighbour[k]) - p;
+    length += edge.norm() / ring.degree;
+    lowest = std::min(lowest, edge.dot(n));
+  }
+  // Where the solid curves away, the film's faces cut that much below its vertices.
+  const double sagitta = std::min(-0.25 * lowest, largest_sagitta * length);
+  x.col(v) = p + (film_thickness * length + sagitta) * n;
+  u.col(v) -= std::min(0.0, (u.col(v) - solid_velocity).dot(n)) * n;
 }
 
 }  // namespace
@@ -42,6 +77,7 @@ void lift(Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n) {
 void lift_films(Drop& drop, const std::vector<Solid>& solids, double time) {
   if (!touches_solid(drop)) return;
   const Eigen::AlignedBox3d box = bounding_box(drop);
+  std::optional<WettedFaces> wetted;
   for (const Solid& solid : solids) {
     if (solid.inflow || !solid.is_near(box, time, 0)) continue;
     for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
@@ -49,9 +85,27 @@ void lift_films(Drop& drop, const std::vector<Solid>& solids, double time) {
       const Vector3d x = drop.positions().col(v);
       if (!solid.is_near(x, time, 0)) continue;
       const SolidContact below = solid.query(x, time);
-      if (below.distance <= 0 && is_over_wetted_area(drop, v, below.point, below.normal))
-        lift(drop, v, below.point, below.normal);
+      if (below.distance > 0) continue;
+      if (!wetted) wetted.emplace(drop, [&](std::uint32_t w) { return is_colliding(drop.contact()[w]); });
+      if (wetted->cover(below.point, below.normal, v)) lift(drop, v, below.point, below.normal, solid.velocity(time));
     }
+  }
+}
+
+void lift_landed(Drop& drop, const std::vector<Solid>& solids, double time, const std::vector<std::uint32_t>& landed,
+                 const std::vector<std::uint8_t>& was_wetted) {
+  if (landed.empty()) return;
+  const WettedFaces wetted(drop, [&](std::uint32_t v) { return was_wetted[v] != 0; });
+  if (wetted.empty()) return;
+  for (const std::uint32_t v : landed) {
+    std::int32_t& solid = drop.contact_solid()[v];
+    const Solid& below = solids[static_cast<std::size_t>(solid)];
+    if (below.inflow) continue;
+    const Vector3d p = drop.positions().col(v), n = drop.contact_normals().col(v);
+    if (!wetted.cover(p, n, v)) continue;
+    lift(drop, v, p, n, below.velocity(time));
+    drop.contact()[v] = Contact::free;
+    solid = -1;
   }
 }
 

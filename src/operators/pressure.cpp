@@ -20,8 +20,9 @@ constexpr double beta_free = 0.25, beta_contact = 0.6;
 constexpr double chi_contact = 0.3;
 /// eta/nu: Lamb's decay over modes 2 to 8 (docs/MODELS.md).
 constexpr double viscosity_to_eta = 2.456;
-/// Share of the missing volume that a substep takes back.
-constexpr double volume_gain = 0.5;
+/// Share of the missing volume that a substep takes back, and the shortest time that this may take, in radians of the
+/// lowest mode: however short the substep is, the surface must not rush.
+constexpr double volume_gain = 0.5, shortest_volume_phase = 0.03;
 constexpr int most_solves = 8;
 
 double surface_length(const PressureSurface& surface) {
@@ -86,7 +87,9 @@ bool PressureStep::solve(double dt) {
   if (surface.in_contact) mass.friction = &arrays.friction;
   mass.diagonal(arrays.diagonal);
 
-  const double flux = volume_gain * (drop_.target_volume() - surface.volume) / dt;
+  const double shortest = c > 0 ? shortest_volume_phase * surface_length(surface) / (2 * std::sqrt(c)) : 0;
+  const double missing = drop_.target_volume() - surface.volume;
+  const double flux = drop_.inflow() + volume_gain * missing / std::max(dt, shortest);
   arrays.speed = arrays.speed_old;
   std::fill(arrays.blocked.begin(), arrays.blocked.end(), std::uint8_t{0});
   for (int k = 0; k < most_solves; ++k) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/operators/external_forces.h"
+#include "meniscus/operators/lift_films.h"
 #include "pressure_arrays.h"
 
 #include <algorithm>
@@ -215,6 +216,7 @@ PressureReport PressureStep::move() {
 
   drop_.workspace().geometry.compute(std::as_const(drop_).positions(), drop_.connectivity());
   even_out(drop_, options_, options_.smoothing, volume_offset(drop_, options_.edge_min, surface), arrays);
+  lift_films(drop_, solids_, time_ + dt_);
   measure_solid(std::as_const(drop_).positions(), drop_.connectivity(), surface);
   if (turns) {  // the angular momentum stays
     const Matrix3d inertia = inertia_about(surface.center, std::as_const(drop_).positions(), drop_.connectivity());

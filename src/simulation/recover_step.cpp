@@ -65,8 +65,7 @@ void recurse(Drop& drop, double time, double dt, const StepOptions& options, Ste
 
 std::string blow_up(Drop& drop, const Eigen::Matrix3Xd& before) {
   const FaceChanges changes = find_face_changes(drop, before, drop.workspace().violent_faces);
-  if (!std::isfinite(changes.volume) || !drop.velocities().allFinite())
-    return "a position or velocity is not finite";
+  if (!std::isfinite(changes.volume) || !drop.velocities().allFinite()) return "a position or velocity is not finite";
   if (changes.turned_area > most_turned * changes.area)
     return fmt::format("{:.0f} % of the surface turned over", 100 * changes.turned_area / changes.area);
   if (changes.area > most_growth * changes.area_before)

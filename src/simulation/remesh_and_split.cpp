@@ -3,6 +3,7 @@
 #include "meniscus/geometry/rigid_motion.h"
 #include "meniscus/state/judge.h"
 #include "meniscus/topology/split.h"
+#include "round_off.h"
 #include "step_parts.h"
 
 #include <fmt/format.h>
@@ -82,8 +83,12 @@ StepReport& StepReport::operator+=(const MergeReport& merge) {
   return *this;
 }
 
-std::vector<Drop> remesh_and_split(Drop drop, const Eigen::Matrix3Xd& before, const StepOptions& options,
-                                   Remesher& remesher, StageClock& clock, StepReport& report) {
+namespace {
+
+/// remesh_and_split, before specks are looked at. `after` says for what a piece may be found unsound.
+std::vector<Drop> change_topology(Drop drop, const Eigen::Matrix3Xd& before, const StepOptions& options,
+                                  Remesher& remesher, StageClock& clock, StepReport& report, const char*& after) {
+  after = "remeshing";
   if (options.remesh) watch_faces(drop, drop.workspace().violent_faces);
   if (options.remesh && may_fold(drop, merge_options(options))) {
     MergeReport merge;
@@ -91,8 +96,7 @@ std::vector<Drop> remesh_and_split(Drop drop, const Eigen::Matrix3Xd& before, co
     report += merge;
     clock.done(Stage::merge);
     if (mended) {
-      if (options.verify != Verify::nothing)
-        for (const Drop& piece : *mended) verify_topology(piece, "a fold was united");
+      after = "a fold was united";
       return *std::move(mended);
     }
   }
@@ -103,20 +107,31 @@ std::vector<Drop> remesh_and_split(Drop drop, const Eigen::Matrix3Xd& before, co
   report.edge_operations += remeshed.splits + remeshed.collapses + remeshed.flips + remeshed.lifts;
   report.cuts += remeshed.cuts;
   clock.done(Stage::remesh);
-  if (options.verify != Verify::nothing && remeshed.cuts == 0) verify_topology(drop, "remeshing");
-
   if (remeshed.cuts > 0) {
     SplitReport split;
     pieces = split_components(std::move(drop), split, least_volume(options.band));
     report.deleted += split.deleted + split.deleted_empty;
     for (Drop& piece : pieces) stiffen_speck(piece, options.band);
-    if (options.verify != Verify::nothing)
-      for (const Drop& piece : pieces) verify_topology(piece, "a split");
+    after = "a split";
   } else {
     pieces.push_back(std::move(drop));
     report.skip(Stage::split);
   }
   clock.done(Stage::split);
+  return pieces;
+}
+
+}  // namespace
+
+std::vector<Drop> remesh_and_split(Drop drop, const Eigen::Matrix3Xd& before, const std::vector<Solid>& solids,
+                                   double time, const StepOptions& options, Remesher& remesher, StageClock& clock,
+                                   StepReport& report) {
+  const std::uint64_t version = drop.topology_version();
+  const char* after = nullptr;
+  std::vector<Drop> pieces = change_topology(std::move(drop), before, options, remesher, clock, report, after);
+  report.rounded += round_off_knots(pieces, version, solids, time, options.band);
+  if (options.verify != Verify::nothing)
+    for (const Drop& piece : pieces) verify_topology(piece, after);
   return pieces;
 }
 

@@ -13,6 +13,7 @@
 #include "meniscus/state/contact_line.h"
 #include "meniscus/state/free_rigid_motion.h"
 #include "recover_step.h"
+#include "round_off.h"
 #include "step_parts.h"
 
 #include <fmt/format.h>
@@ -211,6 +212,8 @@ void deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt
     remove_tangential_deformation(drop, geometry, forces.colliding > 0 ? free_rigid_motion(drop, geometry) : rigid, dt);
   clock.done(Stage::damping);
 
+  // What lifting films adds is taken from elsewhere, and what sank in by that is lifted for good.
+  if (forces.colliding > 0) lift_films(drop, solids, time);
   const VolumeCorrectionReport volume = correct_volume(drop, geometry, dt, volume_options(options, drop));
   report.limited_volume += volume.limited;
   if (!std::isnan(volume.relative_error))
@@ -224,18 +227,30 @@ void deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt
   if (options.volume_correction == VolumeCorrectionMethod::none) report.skip(Stage::volume_correction);
 }
 
+std::vector<Drop> one_piece(Drop drop) {
+  std::vector<Drop> pieces;
+  pieces.push_back(std::move(drop));
+  return pieces;
+}
+
 /// One substep: operators, remesh, split.
 std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                           const StepOptions& options, Remesher& remesher, StepReport& report) {
-  deform_or_recover(drop, time, dt, options, report,
-                    [&](Drop& moving, double to, double step, const StepOptions& at, StepReport& sum) {
-                      deform(moving, solids, to, step, at, sum);
-                    });
+  const auto move = [&](Drop& moving, double to, double step, const StepOptions& at, StepReport& sum) {
+    deform(moving, solids, to, step, at, sum);
+  };
+  try {
+    deform_or_recover(drop, time, dt, options, report, move);
+  } catch (const NumericsError&) {
+    if (!is_speck(drop, options.band)) throw;
+    ++report.rounded;
+    return one_piece(rounded_off(drop, solids, time, dt, options.band));
+  }
   StageClock clock(options.clock, report);
   const int id = drop.id();
   const double volume = options.level == Level::paper ? drop.volume() : 0;
   const Eigen::Matrix3Xd& before = drop.workspace().kept.positions();
-  std::vector<Drop> pieces = remesh_and_split(std::move(drop), before, options, remesher, clock, report);
+  std::vector<Drop> pieces = remesh_and_split(std::move(drop), before, solids, time, options, remesher, clock, report);
   if (options.level == Level::paper) check_not_crumpled(pieces, volume, id);
   return pieces;
 }
@@ -264,6 +279,7 @@ StepReport& StepReport::operator+=(const StepReport& other) {
   overlap += other.overlap;
   rejected += other.rejected;
   recoveries += other.recoveries;
+  rounded += other.rounded;
   asleep += other.asleep;
   asleep_triangles += other.asleep_triangles;
   volume_added += other.volume_added;
@@ -281,8 +297,7 @@ std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double 
   int left = num_substeps(drop, solids, time, dt, options);
   report.substeps = std::max(report.substeps, left);
   const double part = dt / left, inflow = drop.inflow();
-  std::vector<Drop> pieces;
-  pieces.push_back(std::move(drop));
+  std::vector<Drop> pieces = one_piece(std::move(drop));
   while (left > 0 && pieces.size() == 1) {
     --left;
     pieces.front().set_target_volume(pieces.front().target_volume() + inflow * part);

@@ -2,6 +2,7 @@
 #include "meniscus/core/error.h"
 #include "meniscus/operators/pressure.h"
 #include "recover_step.h"
+#include "round_off.h"
 #include "step_parts.h"
 
 #include <fmt/format.h>
@@ -91,7 +92,10 @@ void take_substep(Traveller& traveller, const std::vector<Solid>& solids, double
       substep_or_recover(traveller.drop, solids, time - traveller.left, std::min(traveller.next, traveller.left),
                          shortest, options, kept, clock, report);
   traveller.left -= dt;
-  if (traveller.left < 0.5 * shortest) traveller.left = 0;
+  if (traveller.left < 0.5 * shortest) {
+    traveller.drop.set_target_volume(traveller.drop.target_volume() + traveller.drop.inflow() * traveller.left);
+    traveller.left = 0;
+  }
   traveller.next = 2 * dt;
   ++traveller.substeps;
 }
@@ -114,11 +118,19 @@ std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, 
     }
     KeptState& kept = traveller.drop.workspace().kept;
     kept.keep(traveller.drop);
-    take_substep(traveller, solids, time, least_share * dt, options, kept, clock, report);
+    try {
+      take_substep(traveller, solids, time, least_share * dt, options, kept, clock, report);
+    } catch (const NumericsError&) {
+      if (!is_speck(traveller.drop, options.band)) throw;
+      ++report.rounded;
+      traveller.drop.set_target_volume(traveller.drop.target_volume() + traveller.drop.inflow() * traveller.left);
+      arrived.push_back(rounded_off(traveller.drop, solids, time, traveller.left, options.band));
+      continue;
+    }
     report.substeps = std::max(report.substeps, traveller.substeps);
     const double inflow = traveller.drop.inflow();
-    std::vector<Drop> pieces =
-        remesh_and_split(std::move(traveller.drop), kept.positions(), options, remesher, clock, report);
+    std::vector<Drop> pieces = remesh_and_split(std::move(traveller.drop), kept.positions(), solids,
+                                                time - traveller.left, options, remesher, clock, report);
     if (pieces.size() > 1) keep_inflow(pieces, solids, inflow);
     for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
       on_the_way.push_back({std::move(*piece), traveller.left, traveller.next, traveller.substeps});

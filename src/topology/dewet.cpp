@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "merge_parts.h"
 #include "remesh_state.h"
 
 #include <CGAL/boost/graph/Euler_operations.h>
@@ -120,7 +121,10 @@ void dewet(RemeshState& state) {
   for (std::uint32_t f = 0; f < faces; ++f) {
     if (state.mesh.is_removed(FaceIndex(f))) continue;
     const auto h = line_edge(state, FaceIndex(f));
-    if (h != Mesh::null_halfedge()) try_dewet(state, h);
+    if (h == Mesh::null_halfedge() || !is_film_of(state, height_of_apex(state, h)) || try_dewet(state, h)) continue;
+    std::uint8_t* watch = state.drop.seam_watch();  // it lies on the wetted area, or will soon
+    for (const auto v : {state.mesh.source(h), state.mesh.target(h), state.apex(h)})
+      watch[v] = std::max(watch[v], violent_watched_calls);
   }
 }
 

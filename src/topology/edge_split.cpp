@@ -64,6 +64,41 @@ bool would_fold_at(const RemeshState& state, HalfedgeIndex h, const Eigen::Vecto
   return turns_too_far((m - a).cross(o - a)) || turns_too_far((b - m).cross(o - m));
 }
 
+double length2(const RemeshState& state, HalfedgeIndex h) {
+  return (state.point(state.mesh.target(h)) - state.point(state.mesh.source(h))).squaredNorm();
+}
+
+/// The median from m, the middle of h, in the face left of it is clearly shorter than h, as the band counts lengths.
+/// Where all count alike the longest side of a face passes.
+bool would_shorten(const RemeshState& state, HalfedgeIndex h, const Eigen::Vector3d& m) {
+  constexpr double clearly_shorter = 0.95;
+  const double counted2 = state.squared_length(h), wetted = state.options.band.wetted_weight;
+  const double weight2 = state.is_wet_face(h) ? wetted * wetted : counted2 / length2(state, h);
+  return weight2 * (state.point(state.apex(h)) - m).squaredNorm() < clearly_shorter * clearly_shorter * counted2;
+}
+
+/// A side of the face left of h is longer than h, and is to be split.
+bool has_longer_side(const RemeshState& state, HalfedgeIndex h) {
+  for (const auto side : {state.mesh.next(h), state.mesh.prev(h)})
+    if (length2(state, side) > length2(state, h) && state.is_long(state.squared_length(side))) return true;
+  return false;
+}
+
+/// The apex of the face left of h lies where the new vertex would.
+bool is_taken(const RemeshState& state, HalfedgeIndex h, const Eigen::Vector3d& m) {
+  constexpr double apart = 0.05;
+  return (state.point(state.apex(h)) - m).squaredNorm() < apart * apart * length2(state, h);
+}
+
+/// Whether to split h at m, or to do it in the next round, after a longer side. Weights change with every split: on a
+/// fold, where faces have no area, medians as long as the edge would be split in turn, without end.
+bool may_split(RemeshState& state, HalfedgeIndex h, const Eigen::Vector3d& m) {
+  const auto back = state.mesh.opposite(h);
+  if (would_shorten(state, h, m) && would_shorten(state, back, m)) return true;
+  if (has_longer_side(state, h) || has_longer_side(state, back)) state.queue(state.mesh.edge(h));
+  return false;
+}
+
 Contact contact_of_midpoint(const RemeshState& state, HalfedgeIndex h) {
   if (state.inside_wetted_area(h)) return Contact::wetted;
   return state.is_contact_line(h) ? Contact::line : Contact::free;
@@ -87,6 +122,8 @@ Refusal try_split(RemeshState& state, HalfedgeIndex h) {
   const auto a = mesh.source(h), b = mesh.target(h);
   const Eigen::Vector3d middle = 0.5 * (state.point(a) + state.point(b));
   if (state.is_forbidden(middle)) return Refusal::near_intersection;
+  if (is_taken(state, h, middle) || is_taken(state, mesh.opposite(h), middle)) return Refusal::would_be_sliver;
+  if (!may_split(state, h, middle)) return Refusal::not_wanted;
 
   const Contact contact = contact_of_midpoint(state, h);
   Eigen::Vector3d m = middle;

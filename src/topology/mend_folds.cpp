@@ -227,6 +227,10 @@ class TakeBack {
 
 }  // namespace
 
+std::vector<std::array<std::uint32_t, 2>> pairs_that_meet(const Drop& drop, std::vector<FaceBox> faces) {
+  return FoldFinder(drop, std::move(faces)).meeting();
+}
+
 bool meet_each_other(const Drop& drop, const std::vector<FaceBox>& faces) {
   const MeshView mesh = view_of(drop);
   const FaceGrid grid(faces);
@@ -261,8 +265,10 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& 
     if (taken.empty()) count_down_watch(drop, options.remesh.band.edge_max);
     relax(drop, taken, region, options.remesh.band.edge_max);
     const bool is_measurable = std::abs(ledger.volume / drop.target_volume() - 1) < largest_volume_error;
-    if (!taken.empty() && is_measurable && !restore_lost_volume(drop, ledger, taken.size()))
+    if (!taken.empty() && is_measurable && !restore_lost_volume(drop, ledger, taken.size())) {
+      offset_around(drop, taken, ledger.volume, region);
       restore_ledger(drop, ledger, false);
+    }
     return std::nullopt;
   }
   ++report.folds;

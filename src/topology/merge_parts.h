@@ -4,6 +4,7 @@
 #include "face_grid.h"
 #include "meniscus/state/ledger.h"
 #include "meniscus/topology/merge.h"
+#include "watched_region.h"
 
 #include <Eigen/Geometry>
 
@@ -22,8 +23,15 @@ void count_down_watch(Drop& drop, double reach);
 std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, const Ledger& ledger,
                           double target_volume, const MergeOptions& options, Remesher& remesher, MergeReport& report);
 
-/// Whether any two of the faces meet elsewhere than in what they share.
+/// Which of the faces meet elsewhere than in what they share: pairs, sorted.
+std::vector<std::array<std::uint32_t, 2>> pairs_that_meet(const Drop& drop, std::vector<FaceBox> faces);
+
+/// Whether any two of the faces do.
 bool meet_each_other(const Drop& drop, const std::vector<FaceBox>& faces);
+
+/// Moves the free vertices that are not `held` along their normals until the drop encloses `volume` (cm^3), those near
+/// held ones by less. Where faces of the region then meet, more vertices are held; if that does not end, nothing moves.
+void offset_around(Drop& drop, std::vector<std::uint32_t> held, double volume, const WatchedRegion& region);
 
 /// unite_with_itself of the given faces, which are sorted by index.
 BooleanResult unite_with_itself(const MeshView& mesh, const std::vector<FaceBox>& faces, bool keep_cavities);

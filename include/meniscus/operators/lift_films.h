@@ -13,8 +13,15 @@ namespace meniscus {
 /// area is left to the next step's collisions. For the end of a substep, after operators that move the free surface
 /// without looking at solids. Not in the paper.
 ///
-/// Reads contact state and solids at `time` (s); writes positions (cm) of free vertices. Sources (Solid::inflow) are no
+/// Reads contact state and solids at `time` (s); writes positions (cm) of free vertices,
+/// and takes from their velocities (cm/s) what would go into the solid. Sources (Solid::inflow) are no
 /// solids here; a drop that touches nothing is left as it is.
 void lift_films(Drop& drop, const std::vector<Solid>& solids, double time);
+
+/// The same for vertices that a step has just put on a solid: those of `landed` that came down through the drop's own
+/// wetted area are above it and free. The wetted area is that of the faces whose three vertices `was_wetted` (one a
+/// row); without it a falling top would lie flat on the bottom, and the two meet.
+void lift_landed(Drop& drop, const std::vector<Solid>& solids, double time, const std::vector<std::uint32_t>& landed,
+                 const std::vector<std::uint8_t>& was_wetted);
 
 }  // namespace meniscus

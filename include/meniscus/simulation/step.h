@@ -70,6 +70,7 @@ struct StepReport {
   double overlap = 0;                              ///< cm^3 that merging drops both claimed, lost and repaired
   std::size_t rejected = 0;                        ///< substeps of Level::pressure taken back for shorter ones
   std::size_t recoveries = 0;                      ///< substeps that blew up and were taken back for shorter ones
+  std::size_t rounded = 0;                         ///< specks that were lost and became balls
   int substeps = 0;                                ///< most of any drop
   int solver_iterations = 0;                       ///< most of any drop
   std::size_t asleep = 0;                          ///< drops that were not stepped, being at rest
@@ -98,6 +99,7 @@ struct StepReport {
     archive("overlap", self.overlap);
     archive("rejected", self.rejected);
     archive("recoveries", self.recoveries);
+    archive("rounded", self.rounded);
     archive("asleep", self.asleep);
     archive("asleep_triangles", self.asleep_triangles);
     archive("skipped", self.skipped);
@@ -118,7 +120,8 @@ RemeshOptions remesh_options(const StepOptions& step);
 /// It is cut into equal substeps where one would be too long: see docs/MODELS.md.
 /// `remesher` keeps working arrays from call to call: one a thread.
 /// A substep after which the drop is not fit to go on is taken back and done in halves: see StepReport::recoveries.
-/// Throws NumericsError if 1/64 of a substep fails still, SoundnessError if options.verify finds a drop unsound.
+/// Throws NumericsError if 1/64 of a substep fails still, but for a drop hardly larger than an edge, which becomes a
+/// ball (StepReport::rounded); SoundnessError if options.verify finds a drop unsound.
 std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                             const StepOptions& options, Remesher& remesher, StepReport& report);
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meniscus/state/drop.h"
+#include "meniscus/state/parameters.h"
+#include "meniscus/state/solid.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace meniscus {
+
+/// The drop is hardly larger than an edge: its mesh says how much liquid is there, and where, but not its shape.
+bool is_speck(const Drop& drop, const EdgeBand& band);
+
+/// The ball that holds a drop's target volume: what is left of a speck that no operator can step any more. It is where
+/// the mean of the vertices gets to in dt (s) with their mean velocity, clear of the solids at `time` (s), and
+/// touches nothing. Keeps that velocity, id, target volume and inflow.
+Drop rounded_off(const Drop& drop, const std::vector<Solid>& solids, double time, double dt, const EdgeBand& band);
+
+/// Rounds off those of a substep's pieces that are specks and meet themselves, are turned over or have but four
+/// faces: few vertices leave no other way to mend them. Looks at what changed only: pieces whose topology version is
+/// not `version`, or that are watched for folds. Returns how many.
+std::size_t round_off_knots(std::vector<Drop>& pieces, std::uint64_t version, const std::vector<Solid>& solids,
+                            double time, const EdgeBand& band);
+
+}  // namespace meniscus

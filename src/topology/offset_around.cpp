@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/state/offset_to_volume.h"
+#include "merge_parts.h"
+
+#include <cmath>
+
+namespace meniscus {
+namespace {
+
+/// How much of an offset each vertex takes: none on solids and of those that are `held`, all from three edges away from
+/// them.
+std::vector<double> shares_of_offset(const Drop& drop, const std::vector<std::uint32_t>& held) {
+  constexpr int edges = 3;
+  std::vector<double> share(drop.num_rows(), 1);
+  std::vector<std::uint32_t> front = held, next;
+  for (const auto v : front) share[v] = 0;
+  for (int k = 1; k < edges; ++k, front.swap(next)) {
+    next.clear();
+    for (const auto v : front) {
+      const Ring ring = drop.connectivity().ring(v);
+      for (int i = 0; i < ring.degree; ++i) {
+        double& near = share[ring.neighbour[i]];
+        if (near < 1) continue;
+        near = static_cast<double>(k) / edges;
+        next.push_back(ring.neighbour[i]);
+      }
+    }
+  }
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
+    if (!is_off_solids(drop, v)) share[v] = 0;
+  return share;
+}
+
+/// Moves each vertex by its share of d along its normal, from `before`.
+void offset(Drop& drop, const SurfaceGeometry& geometry, const std::vector<double>& share,
+            const Eigen::Matrix3Xd& before, double d) {
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
+    if (share[v] > 0) drop.positions().col(v) = before.col(v) + d * share[v] * geometry.normal(v);
+}
+
+/// Moves the vertices by the d at which the drop encloses `volume`, found by secants.
+void find_offset(Drop& drop, const SurfaceGeometry& geometry, const std::vector<double>& share,
+                 const Eigen::Matrix3Xd& before, double volume) {
+  constexpr int rounds = 4;
+  constexpr double enough = 1e-9;
+  double area = 0, d = 0, missing = volume - geometry.volume();
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
+    if (share[v] > 0) area += share[v] * geometry.area_vector(v).dot(geometry.normal(v)) / 3;
+  for (int k = 0; k < rounds && std::abs(missing) > enough * volume && area > 0; ++k) {
+    const double more = missing / area, missing_old = missing;
+    d += more;
+    offset(drop, geometry, share, before, d);
+    missing = volume - drop.volume();
+    area = (missing_old - missing) / more;
+  }
+}
+
+}  // namespace
+
+void offset_around(Drop& drop, std::vector<std::uint32_t> held, double volume, const WatchedRegion& region) {
+  constexpr int most_rounds = 6;
+  SurfaceGeometry geometry;
+  geometry.compute(std::as_const(drop).positions(), drop.connectivity());
+  const Eigen::Matrix3Xd before = drop.positions();
+  for (int round = 0; round < most_rounds; ++round) {
+    find_offset(drop, geometry, shares_of_offset(drop, held), before, volume);
+    const auto meeting = pairs_that_meet(drop, region.faces_of(drop));
+    if (meeting.empty()) return;
+    for (const auto& pair : meeting)
+      for (const auto face : pair)
+        for (const auto v : drop.connectivity().triangles()[face]) held.push_back(v);
+    drop.positions() = before;
+  }
+}
+
+}  // namespace meniscus

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/scene/read_scene.h"
+#include "meniscus/simulation/simulation.h"
+#include "meniscus/state/judge.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace meniscus {
+namespace {
+
+/// Scenes that scripts/soak drew and that once failed, cut down to what fails: data/regressions/<symptom>.json.
+class FailedScenes : public testing::TestWithParam<std::string> {};
+
+TEST_P(FailedScenes, StaySoundAndLoseNothing) {
+  const Scene scene = read_scene(MENISCUS_DATA_DIR "/regressions/" + GetParam() + ".json");
+  Simulation simulation(scene);
+  double there = simulation.target_volume();
+  for (int n = 1; n <= scene.frames * scene.steps_per_frame; ++n) {
+    there += simulation.step().volume_added;
+    for (const Drop& drop : simulation.drops())
+      ASSERT_EQ(judge::defect(drop), "") << "drop " << drop.id() << ", step " << n;
+    ASSERT_NEAR(simulation.target_volume(), there, 1e-9 * there) << "step " << n;
+  }
+  EXPECT_NEAR(simulation.volume(), there, 0.01 * there);
+}
+
+INSTANTIATE_TEST_SUITE_P(Regressions, FailedScenes,
+                         testing::Values("refinement_without_end", "top_falls_on_wetted_area", "speck_knots",
+                                         "lift_adds_volume", "pressure_film_sinks", "source_fills_with_a_rush",
+                                         "speck_blows_up"),
+                         [](const auto& scene) { return scene.param; });
+
+}  // namespace
+}  // namespace meniscus

@@ -14,6 +14,8 @@ using Eigen::Vector3d;
 
 /// In lengths of edge_min: what a vertex may move on its own, go into a solid, and be offset for the volume.
 constexpr double most_move = 0.5, most_depth = 0.2, most_offset = 0.05;
+/// Films lower than this (in lengths of edge_min) come down no further.
+constexpr double low_film = 0.05;
 /// Vertices this near to a solid touch it (cm).
 constexpr double touching_distance = 1e-9;
 /// A patch on a solid smaller than this (in edge_min^2) comes off, if it shrinks and the drop rises: its
@@ -212,13 +214,13 @@ PressureReport PressureStep::move() {
   const Vector3d angular_momentum = surface.inertia * surface.rotation;
   drop_.workspace().geometry.compute(std::as_const(drop_).positions(), drop_.connectivity());
   even_out(drop_, options_, options_.smoothing, volume_offset(drop_, options_.edge_min, surface), arrays);
-  lift_films(drop_, solids_, time_ + dt_);
   measure_solid(std::as_const(drop_).positions(), drop_.connectivity(), surface);
   if (surface.in_contact || !(surface.inertia.determinant() > 0))
     surface.rotation.setZero();
   else
     surface.rotation = surface.inertia.ldlt().solve(angular_momentum);
   write_velocities(drop_, motion, arrays);
+  lift_films(drop_, solids_, time_ + dt_, low_film * options_.edge_min);
   report_.relative_volume_error = surface.volume / drop_.target_volume() - 1;
   return report_;
 }

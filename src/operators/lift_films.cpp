@@ -56,9 +56,15 @@ class WettedFaces {
   std::vector<Face> faces_;
 };
 
-/// Puts a vertex that is below p, on a solid of normal n, above it; what velocity it has into the solid ends there.
+/// What velocity a vertex has into a solid of normal n ends.
+void stop(Drop& drop, std::uint32_t v, const Vector3d& n, const Vector3d& solid_velocity) {
+  Columns u = drop.velocities();
+  u.col(v) -= std::min(0.0, (u.col(v) - solid_velocity).dot(n)) * n;
+}
+
+/// Puts a vertex that is below p, on a solid of normal n, above it, and stops it.
 void lift(Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n, const Vector3d& solid_velocity) {
-  Columns x = drop.positions(), u = drop.velocities();
+  Columns x = drop.positions();
   const Ring ring = drop.connectivity().ring(v);
   double length = 0, lowest = 0;
   for (int k = 0; k < ring.degree; ++k) {
@@ -69,25 +75,29 @@ void lift(Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n, con
   // Where the solid curves away, the film's faces cut that much below its vertices.
   const double sagitta = std::min(-0.25 * lowest, largest_sagitta * length);
   x.col(v) = p + (film_thickness * length + sagitta) * n;
-  u.col(v) -= std::min(0.0, (u.col(v) - solid_velocity).dot(n)) * n;
+  stop(drop, v, n, solid_velocity);
 }
 
 }  // namespace
 
-void lift_films(Drop& drop, const std::vector<Solid>& solids, double time) {
+void lift_films(Drop& drop, const std::vector<Solid>& solids, double time, double low) {
   if (!touches_solid(drop)) return;
   const Eigen::AlignedBox3d box = bounding_box(drop);
   std::optional<WettedFaces> wetted;
   for (const Solid& solid : solids) {
-    if (solid.inflow || !solid.is_near(box, time, 0)) continue;
+    if (solid.inflow || !solid.is_near(box, time, low)) continue;
     for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
       if (drop.connectivity().degree(v) == 0 || is_colliding(drop.contact()[v])) continue;
       const Vector3d x = drop.positions().col(v);
-      if (!solid.is_near(x, time, 0)) continue;
+      if (!solid.is_near(x, time, low)) continue;
       const SolidContact below = solid.query(x, time);
-      if (below.distance > 0) continue;
+      if (below.distance > low) continue;
       if (!wetted) wetted.emplace(drop, [&](std::uint32_t w) { return is_colliding(drop.contact()[w]); });
-      if (wetted->cover(below.point, below.normal, v)) lift(drop, v, below.point, below.normal, solid.velocity(time));
+      if (!wetted->cover(below.point, below.normal, v)) continue;
+      if (below.distance > 0)
+        stop(drop, v, below.normal, solid.velocity(time));
+      else
+        lift(drop, v, below.point, below.normal, solid.velocity(time));
     }
   }
 }

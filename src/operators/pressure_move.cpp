@@ -16,6 +16,8 @@ using Eigen::Vector3d;
 constexpr double most_move = 0.5, most_depth = 0.2, most_offset = 0.05;
 /// A drop that turns by less in a substep (radians) keeps its rotation, whatever becomes of its shape.
 constexpr double least_turn = 1e-12;
+/// Films lower than this (in lengths of edge_min) come down no further.
+constexpr double low_film = 0.05;
 /// Vertices this near to a solid touch it (cm).
 constexpr double touching_distance = 1e-9;
 /// A patch on a solid smaller than this (in edge_min^2) comes off, if it shrinks and the drop rises: its
@@ -216,7 +218,6 @@ PressureReport PressureStep::move() {
 
   drop_.workspace().geometry.compute(std::as_const(drop_).positions(), drop_.connectivity());
   even_out(drop_, options_, options_.smoothing, volume_offset(drop_, options_.edge_min, surface), arrays);
-  lift_films(drop_, solids_, time_ + dt_);
   measure_solid(std::as_const(drop_).positions(), drop_.connectivity(), surface);
   if (turns) {  // the angular momentum stays
     const Matrix3d inertia = inertia_about(surface.center, std::as_const(drop_).positions(), drop_.connectivity());
@@ -224,6 +225,7 @@ PressureReport PressureStep::move() {
                                                  : Vector3d(Vector3d::Zero());
   }
   write_velocities(drop_, motion, arrays);
+  lift_films(drop_, solids_, time_ + dt_, low_film * options_.edge_min);
   report_.relative_volume_error = surface.volume / drop_.target_volume() - 1;
   return report_;
 }

@@ -74,6 +74,9 @@ void check_options(const RemeshOptions& options);
 /// the contact line has made one, wetted vertices that the line overtook join it, and a film of no
 /// thickness above the wetted area is lifted by 0.02 edge_min.
 ///
+/// An edge is split where that makes shorter ones, as the band counts lengths; else it waits for a longer side of its
+/// faces. None is split where an apex lies already.
+///
 /// It ends: no collapse or flip makes an edge too long, and no flip makes one too short, so the only
 /// new work is short edges made by splits, and each collapse takes a vertex away. max_passes bounds
 /// what smoothing may undo.

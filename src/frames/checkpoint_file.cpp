@@ -18,7 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using State = nlohmann::json;
 
-constexpr int format_version = 1;
 constexpr std::size_t deepest_nesting = 16;
 constexpr std::size_t num_kept = 2;
 constexpr std::string_view mark = "meniscus checkpoint ";
@@ -100,15 +99,15 @@ std::vector<fs::path> find_checkpoints(const fs::path& directory) {
 std::string encode_checkpoint(const State& state) {
   std::string body;
   State::to_cbor(state, body);
-  return fmt::format("{}{} {} {:08x}\n", mark, format_version, body.size(), checksum(body)) + body;
+  return fmt::format("{}{} {} {:08x}\n", mark, checkpoint_format, body.size(), checksum(body)) + body;
 }
 
 State decode_checkpoint(std::string_view bytes, const std::string& name) {
   if (bytes.substr(0, mark.size()) != mark) fail(name, "is no checkpoint");
   bytes.remove_prefix(mark.size());
   const auto version = take_number<int>(bytes, ' ', 10);
-  if (version && *version != format_version)
-    fail(name, fmt::format("is in format {}, but this version reads {}", *version, format_version));
+  if (version && *version != checkpoint_format)
+    fail(name, fmt::format("is in format {}, but this version reads {}", *version, checkpoint_format));
   const auto size = take_number<std::uint64_t>(bytes, ' ', 10);
   const auto crc = take_number<std::uint32_t>(bytes, '\n', 16);
   if (!version || !size || !crc || *size != bytes.size()) fail(name, "is cut off or damaged");

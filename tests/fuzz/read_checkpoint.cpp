@@ -12,7 +12,8 @@
 void meniscus::fuzz::run(std::string_view input) {
   boost::crc_32_type crc;
   crc.process_bytes(input.data(), input.size());
-  const std::string file = fmt::format("meniscus checkpoint 1 {} {:08x}\n{}", input.size(), crc.checksum(), input);
+  const std::string file =
+      fmt::format("meniscus checkpoint {} {} {:08x}\n{}", checkpoint_format, input.size(), crc.checksum(), input);
   std::vector<Drop> drops;
   try {
     const nlohmann::json state = decode_checkpoint(file, "fuzz");

@@ -104,7 +104,7 @@ TEST(Checkpoint, DamagedBytesAreRefused) {
     EXPECT_THROW(decode_checkpoint(changed, "changed"), FileError) << at;
   }
   EXPECT_THROW(decode_checkpoint(bytes + "x", "longer"), FileError);
-  EXPECT_THROW(decode_checkpoint("meniscus checkpoint 2 0 00000000\n", "other version"), FileError);
+  EXPECT_THROW(decode_checkpoint("meniscus checkpoint 1 0 00000000\n", "other version"), FileError);
 }
 
 TEST(Checkpoint, NestingHasALimit) {

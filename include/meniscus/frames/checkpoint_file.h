@@ -13,6 +13,9 @@
 /// Checkpoints as files: a line "meniscus checkpoint <format> <bytes> <crc-32>", then the state as CBOR (RFC 8949).
 namespace meniscus {
 
+/// Counts up when a checkpoint holds something else than before; others are refused.
+inline constexpr int checkpoint_format = 2;
+
 /// "checkpoint_00000120.bin", after step 120.
 std::string checkpoint_name(std::int64_t step);
 

@@ -54,12 +54,17 @@ void keep_inflow(std::vector<Drop>& pieces, const std::vector<Solid>& solids, do
 /// has.
 constexpr double flip_below = -0.05;
 
+/// Those of the coarsest ball: a speck that became one (rounded_off) would collapse to a tetrahedron, be rounded off
+/// again, and so on.
+constexpr std::size_t ball_faces = 20;
+
 RemeshOptions remesh_options(const StepOptions& step) {
   RemeshOptions options;
   options.band = step.band;
   options.cut_necks = step.split;
   options.flip_below = flip_below;
   options.guard_everywhere = step.self_merge;
+  options.min_faces = ball_faces;
   return options;
 }
 

@@ -178,6 +178,7 @@ Refusal would_harm(const RemeshState& state, HalfedgeIndex h, Target target) {
 }  // namespace
 
 Refusal try_collapse(RemeshState& state, HalfedgeIndex h) {
+  if (state.mesh.number_of_faces() <= state.options.min_faces) return Refusal::not_wanted;
   Mesh& mesh = state.mesh;
   if (!state.is_short(state.squared_length(h))) return Refusal::not_wanted;
   const auto a = mesh.source(h), b = mesh.target(h);

@@ -147,25 +147,6 @@ class FoldFinder {
   std::vector<Pair> meeting_;
 };
 
-/// A drop of so many faces has a shape, and so much of its volume is worth restoring.
-constexpr std::size_t least_faces = 200;
-constexpr double most_volume_lost = 0.1;
-
-/// A drop that is taken back nearly whole, and relaxed, in one substep after another shrinks. Restores its volume, too,
-/// when much is gone, unless faces would meet that do not: then the drop stays as it was. Returns whether it did.
-bool restore_lost_volume(Drop& drop, const Ledger& ledger, std::size_t num_taken) {
-  const bool is_most = 2 * num_taken > drop.mesh().number_of_vertices();
-  if (!is_most || drop.mesh().number_of_faces() < least_faces) return false;
-  if (std::abs(drop.volume() / drop.target_volume() - 1) < most_volume_lost) return false;
-  const Eigen::Matrix3Xd positions = drop.positions(), velocities = drop.velocities();
-  const bool did_meet = meet_each_other(drop, WatchedRegion().faces_of(drop));
-  restore_ledger(drop, ledger, true);
-  if (did_meet || !meet_each_other(drop, WatchedRegion().faces_of(drop))) return true;
-  drop.positions() = positions;
-  drop.velocities() = velocities;
-  return false;
-}
-
 /// Takes vertices of a drop back to where they were before the substep.
 class TakeBack {
  public:
@@ -265,7 +246,7 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& 
     if (taken.empty()) count_down_watch(drop, options.remesh.band.edge_max);
     relax(drop, taken, region, options.remesh.band.edge_max);
     const bool is_measurable = std::abs(ledger.volume / drop.target_volume() - 1) < largest_volume_error;
-    if (!taken.empty() && is_measurable && !restore_lost_volume(drop, ledger, taken.size())) {
+    if (!taken.empty() && is_measurable) {
       offset_around(drop, taken, ledger.volume, region);
       restore_ledger(drop, ledger, false);
     }

@@ -25,7 +25,8 @@ struct RemeshOptions {
   /// Whether no operation may make the surface meet itself, anywhere; else that is seen to near watched vertices alone
   /// (Drop::seam_watch).
   bool guard_everywhere = false;
-  double max_faces = 50e6;          ///< a band that needs more faces is refused
+  std::size_t min_faces = 4;  ///< a mesh of so many faces is not made coarser
+  double max_faces = 50e6;    ///< a band that needs more faces is refused
 };
 
 /// Why an edge stayed out of the band: one entry an edge.

@@ -178,7 +178,6 @@ Refusal would_harm(const RemeshState& state, HalfedgeIndex h, Target target) {
 }  // namespace
 
 Refusal try_collapse(RemeshState& state, HalfedgeIndex h) {
-  if (state.mesh.number_of_faces() <= state.options.min_faces) return Refusal::not_wanted;
   Mesh& mesh = state.mesh;
   if (!state.is_short(state.squared_length(h))) return Refusal::not_wanted;
   const auto a = mesh.source(h), b = mesh.target(h);
@@ -186,6 +185,7 @@ Refusal try_collapse(RemeshState& state, HalfedgeIndex h) {
   if (choice.refusal != Refusal::none) return choice.refusal;
   if (has_other_common_neighbour(state, a, b)) return Refusal::link_condition;
   if (would_break_valence(state, h) != Refusal::none) return Refusal::valence;
+  if (state.mesh.number_of_faces() <= state.options.min_faces) return Refusal::not_wanted;
   Target target = choice.target;
   Refusal refusal = would_harm(state, h, target);
   // Where the middle will not do, an end may.

@@ -7,12 +7,17 @@ import { openBrowser, openPage } from "./browser.mjs";
 /** The pictures: a scene of data/scenes, how many frames of it to run, and how to look at which frame. */
 const shots = [
   { name: "splash_falling", scene: "splash", frames: 120, look: "frame=7&zoom=1.2", text: "falls" },
-  { name: "splash_spreading", scene: "splash", frames: 120, look: "frame=11&zoom=1.6", text: "spreads" },
-  { name: "splash_rest", scene: "splash", frames: 120, look: "frame=120&zoom=1.6", text: "rests" },
+  { name: "splash_spreading", scene: "splash", frames: 120, look: "frame=11&zoom=0.8", text: "spreads" },
+  { name: "splash_rest", scene: "splash", frames: 120, look: "frame=120&zoom=0.8", text: "rests" },
   { name: "bar", scene: "bar", frames: 120, look: "frame=6&zoom=1.2", text: "a bar pulls itself together (Fig 4)" },
   { name: "resting_60", scene: "resting_60", frames: 60, look: "frame=60&elevation=6", text: "60 degrees (Fig 2)" },
   { name: "resting_90", scene: "resting_90", frames: 60, look: "frame=60&elevation=6", text: "90 degrees (Fig 2)" },
   { name: "resting_120", scene: "resting_120", frames: 60, look: "frame=60&elevation=6", text: "120 degrees (Fig 2)" },
+  { name: "collide_meeting", scene: "collide", frames: 120, look: "frame=25&zoom=1.2", text: "two drops collide: they have met (Fig 6)" },
+  { name: "collide_waves", scene: "collide", frames: 120, look: "frame=70&zoom=1.2", text: "and have become one (Fig 6)" },
+  { name: "spreading", scene: "spreading", frames: 240, look: "frame=120&elevation=20", text: "a highly hydrophilic plate (Fig 7)" },
+  { name: "tension_low", scene: "tension_low", frames: 240, look: "frame=200&elevation=6", text: "low tension (Fig 8)" },
+  { name: "tension_high", scene: "tension_high", frames: 240, look: "frame=200&elevation=6", text: "high tension (Fig 8)" },
 ];
 const columns = 3, sheet = "docs/gallery/sheet.png";
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "face_grid.h"
 
+#include <cmath>
+
 namespace meniscus {
 namespace {
 
@@ -26,8 +28,13 @@ bool FaceGrid::try_cells(double cell_size) {
   Eigen::Array3d cells = Eigen::Array3d::Ones();
   if (cell_size > 0) cells = (sizes / cell_size).ceil().max(1.0).min(most);
   if (cells.prod() > most) return false;
+  for (int d = 0; d < 3; ++d) {
+    per_length_[d] = cells[d] / sizes[d];
+    if (std::isfinite(per_length_[d])) continue;  // else the faces lie flat, up to numbers next to zero
+    per_length_[d] = 0;
+    cells[d] = 1;
+  }
   cells_ = cells.cast<int>();
-  for (int d = 0; d < 3; ++d) per_length_[d] = sizes[d] > 0 ? cells[d] / sizes[d] : 0;
   first_.assign(static_cast<std::size_t>(cells.prod()) + 1, 0);
   const auto for_each_cell = [&](const FaceBox& box, auto visit) {
     const Eigen::Array3i low = cell(box.box.min()), high = cell(box.box.max());

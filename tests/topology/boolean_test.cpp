@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace meniscus {
 namespace {
 
@@ -72,6 +74,19 @@ TEST(Boolean, MeshesThatDoNotMeetAreKeptOrDroppedWhole) {
   EXPECT_EQ(nested.triangles, a.triangles);
   const BooleanResult hollow = boolean(view_of(a), view_of(in), BooleanOperation::subtract);
   EXPECT_NEAR(hollow.volume, hollow.volume_a - hollow.volume_b, 1e-14);
+}
+
+TEST(Boolean, FacesThatLieFlatUpToNumbersNextToZero) {
+  // As wetted faces on a plane do: their height, the least number above zero, has no reciprocal.
+  constexpr double hardly = std::numeric_limits<double>::denorm_min();
+  MeshData a, b;
+  a.points = {{0, 0, 0}, {1, 0, hardly}, {0, 1, 0}, {1, 1, hardly}};
+  a.triangles = {{0, 1, 2}, {1, 3, 2}};
+  b = a;
+  for (auto& p : b.points) p = {p[0] + 0.5, p[1], hardly - p[2]};  // the slopes cross at x = 0.75
+  EXPECT_TRUE(surfaces_meet(view_of(a), view_of(b)));
+  for (auto& p : b.points) p[0] += 5;
+  EXPECT_FALSE(surfaces_meet(view_of(a), view_of(b)));
 }
 
 TEST(Boolean, SameBitsWhereverMemoryLies) {

@@ -6,6 +6,7 @@
 //
 //   bench_auto [--quick] [--out DIRECTORY]
 #include "meniscus/core/error.h"
+#include "meniscus/simulation/oscillation.h"
 #include "meniscus/simulation/simulation.h"
 #include "references/waves.h"
 #include "support/chart_table.h"
@@ -17,7 +18,6 @@
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
-#include <Eigen/QR>
 
 #include <cmath>
 #include <limits>
@@ -43,29 +43,6 @@ std::vector<Asked> all_asked() {
     all.push_back({std::string("auto ") + accuracy_name(accuracy), accuracy});
   for (const NamedLevel& level : levels) all.push_back({level.name, std::nullopt, level.level});
   return all;
-}
-
-struct Swing {
-  double frequency = nan;        ///< rad/s
-  double kept_per_period = nan;  ///< of the amplitude
-};
-
-/// Of samples dt (s) apart of a damped swing about any mean, however few a period:
-/// x_{n+1} = a x_n - b x_{n-1} + c by least squares, a = 2 exp(-g dt) cos(omega dt), b = exp(-2 g dt) (Prony).
-Swing swing_of(const std::vector<double>& x, double dt) {
-  const auto n = static_cast<Eigen::Index>(x.size()) - 2;
-  Eigen::MatrixX3d known(n, 3);
-  Eigen::VectorXd next(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    known.row(i) << x[k + 1], -x[k], 1;
-    next[i] = x[k + 2];
-  }
-  const Eigen::Vector3d abc = known.colPivHouseholderQr().solve(next);
-  const double cosine = abc[0] / (2 * std::sqrt(abc[1]));
-  if (!(std::abs(cosine) < 1)) return {};  // it creeps
-  const double phase = std::acos(cosine);
-  return {phase / dt, std::pow(abc[1], pi / phase)};
 }
 
 class Comparison {
@@ -94,8 +71,8 @@ class Comparison {
       simulation.step();
     }
     const double seconds = cpu_seconds() - start;
-    const Swing found = swing_of(amplitudes, scene.time_step);
-    const double error = found.frequency / references::rayleigh_frequency(2, radius, scene.liquid) - 1;
+    const Swing found = fit_swing(amplitudes, scene.time_step);
+    const double error = found.angular_frequency / references::rayleigh_frequency(2, radius, scene.liquid) - 1;
     const ModelChoice& choice = simulation.choice();
     add(fmt::format("swing of {} triangles", 20 * frequency * frequency), asked, choice,
         {error, found.kept_per_period, nan, nan}, seconds);
@@ -141,40 +118,28 @@ class Comparison {
   bool is_as_said_ = true;
 };
 
-int run(int argc, char** argv) {
-  bool quick = false;
-  std::filesystem::path out;
-  for (int k = 1; k < argc; ++k) {
-    const std::string word = argv[k];
-    if (word == "--quick")
-      quick = true;
-    else if (word == "--out" && k + 1 < argc)
-      out = argv[++k];
-    else
-      throw UsageError(usage);
-  }
+int run(const ChartArguments& arguments) {
   const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   Comparison comparison;
   for (const int frequency : {8, 16})
     for (const Asked& asked : all_asked())
-      if (!quick || (frequency == 8 && asked.accuracy)) comparison.swing(asked, frequency);
+      if (!arguments.quick || (frequency == 8 && asked.accuracy)) comparison.swing(asked, frequency);
   for (const double angle : {60.0, 90.0, 120.0})
     for (const auto& [size, share] : {std::pair{0.2, 0.1}, {0.1, 0.2}, {0.3, 0.2}})
       for (const Asked& asked : all_asked()) {
-        if (quick && (angle != 90 || !asked.accuracy || share > 0.1)) continue;
+        if (arguments.quick && (angle != 90 || !asked.accuracy || share > 0.1)) continue;
         RestCase rest;
         rest.radius = size;
         rest.angle = angle * pi / 180;
         rest.edge_min = share * size;
         comparison.rest(asked, rest);
       }
-  if (!quick || !out.empty())
-    comparison.table().write(out.empty() ? std::filesystem::path(MENISCUS_SOURCE_DIR "/docs/charts") : out);
+  if (const auto directory = arguments.directory()) comparison.table().write(*directory);
   return comparison.is_as_said() ? 0 : 5;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_bench(argc, argv, usage, [&] { return run(argc, argv); });
+  return run_bench(argc, argv, usage, [&] { return run(chart_arguments(argc, argv, usage)); });
 }

@@ -73,26 +73,14 @@ ChartTable measure(bool quick) {
   return table;
 }
 
-int run(int argc, char** argv) {
-  bool quick = false;
-  std::filesystem::path out;
-  for (int k = 1; k < argc; ++k) {
-    const std::string word = argv[k];
-    if (word == "--quick")
-      quick = true;
-    else if (word == "--out" && k + 1 < argc)
-      out = argv[++k];
-    else
-      throw UsageError(usage);
-  }
-  const ChartTable table = measure(quick);
-  if (!quick || !out.empty())
-    table.write(out.empty() ? std::filesystem::path(MENISCUS_SOURCE_DIR "/docs/charts") : out);
+int run(const ChartArguments& arguments) {
+  const ChartTable table = measure(arguments.quick);
+  if (const auto directory = arguments.directory()) table.write(*directory);
   return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_bench(argc, argv, usage, [&] { return run(argc, argv); });
+  return run_bench(argc, argv, usage, [&] { return run(chart_arguments(argc, argv, usage)); });
 }

@@ -158,8 +158,7 @@ void PureFlow::step_fixed(Drop& drop) {
   for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
     double sum = 0;
     const int degree = drop.connectivity().degree(i);
-    const double* const row = degree > Connectivity::width ? first_.long_weight[drop.connectivity().long_ring(i)].data()
-                                                           : &first_.weight[Connectivity::width * std::size_t{i}];
+    const double* const row = ring_weights(first_, drop.connectivity(), i);
     for (int k = 0; k < degree; ++k) sum += row[k];
     work.matrix.diagonal[i] = geometry.lumped_area(i) + sum;
   }

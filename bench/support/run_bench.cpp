@@ -25,4 +25,23 @@ int run_bench(int argc, char** argv, const char* usage, const std::function<int(
   }
 }
 
+std::optional<std::filesystem::path> ChartArguments::directory() const {
+  if (!out.empty()) return out;
+  return quick ? std::nullopt : std::make_optional<std::filesystem::path>(MENISCUS_SOURCE_DIR "/docs/charts");
+}
+
+ChartArguments chart_arguments(int argc, char** argv, const char* usage) {
+  ChartArguments arguments;
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    if (word == "--quick")
+      arguments.quick = true;
+    else if (word == "--out" && k + 1 < argc)
+      arguments.out = argv[++k];
+    else
+      throw UsageError(usage);
+  }
+  return arguments;
+}
+
 }  // namespace meniscus::bench

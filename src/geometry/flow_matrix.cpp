@@ -23,12 +23,10 @@ double scale_weights(const double* half_sum, int degree, double s, double floor,
 /// rhs_i = sum_k weight_k (y_k - y_i), where `value` gives y.
 template <class Value>
 void sum_differences(const Connectivity& connectivity, const RingMatrix& matrix, const Value& value, Lanes* rhs) {
-  constexpr int width = Connectivity::width;
   for_each_chunk(connectivity.num_rows(), [&](std::size_t begin, std::size_t end) {
     for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
       const Ring ring = connectivity.ring(v);
-      const double* const weight = ring.degree > width ? matrix.long_weight[connectivity.long_ring(v)].data()
-                                                       : &matrix.weight[width * std::size_t{v}];
+      const double* const weight = ring_weights(matrix, connectivity, v);
       const Lanes own = value(v);
       Lanes sum{};
       for (int k = 0; k < ring.degree; ++k) sum += weight[k] * (value(ring.neighbour[k]) - own);

@@ -30,7 +30,6 @@ struct Largest {
 
 /// The explicit change eta dt Lap(v) into workspace.solution. Returns the largest eta dt L_ii / M_ii.
 double explicit_change(Drop& drop, const SurfaceGeometry& geometry, double step) {
-  constexpr int width = Connectivity::width;
   const Connectivity& connectivity = drop.connectivity();
   const ConstColumns v = std::as_const(drop).velocities();
   const RingMatrix& weights = geometry.edge_weights();
@@ -40,8 +39,7 @@ double explicit_change(Drop& drop, const SurfaceGeometry& geometry, double step)
     const double mass = geometry.lumped_area(i);
     change[i] = Lanes{};
     if (!(mass > 0)) return 0.0;
-    const double* const weight = ring.degree > width ? weights.long_weight[connectivity.long_ring(i)].data()
-                                                     : &weights.weight[width * std::size_t{i}];
+    const double* const weight = ring_weights(weights, connectivity, i);
     const Vector3d own = v.col(i);
     Vector3d sum = Vector3d::Zero();
     double stiffness = 0;

@@ -68,6 +68,9 @@ void find_forces(const Drop& drop, const PressureOptions& options, PressureSurfa
 
 /// The drop's volume and centre of mass.
 void measure_solid(const ConstColumns& x, const Connectivity& connectivity, PressureSurface& surface);
+/// The rotation whose field, with a translation, is nearest to the velocities along the surface: of a
+/// velocity U + rotation x r + u n it is the exact rotation, whatever u.
+Eigen::Vector3d tangential_rotation(const Drop& drop, const Eigen::Vector3d& center);
 /// Its inertia, over the density (cm^5).
 Eigen::Matrix3d inertia_about(const Eigen::Vector3d& center, const ConstColumns& x, const Connectivity& connectivity);
 

@@ -25,10 +25,7 @@ Vector3d energy_gradient(const Drop& drop, const PressureSurface& surface, doubl
   const ConstColumns x = drop.positions();
   const auto& faces = drop.workspace().geometry.faces();
   const Ring ring = drop.connectivity().ring(v);
-  const RingMatrix& stiffness = surface.stiffness;
-  const double* const weight = ring.degree > Connectivity::width
-                                   ? stiffness.long_weight[drop.connectivity().long_ring(v)].data()
-                                   : &stiffness.weight[Connectivity::width * std::size_t{v}];
+  const double* const weight = ring_weights(surface.stiffness, drop.connectivity(), v);
   Vector3d area_gradient = Vector3d::Zero(), head_gradient = Vector3d::Zero();
   for (int k = 0; k < ring.degree; ++k) {
     const std::uint32_t f = ring.corner[k] / 3;

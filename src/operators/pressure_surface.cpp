@@ -102,14 +102,10 @@ RingSums ring_sums(const Drop& drop, const std::vector<std::uint8_t>& wet_face, 
 /// The same for a vertex off solids, none of whose faces is wet: the geometry has it all.
 RingSums ring_sums_off_solids(const Drop& drop, std::uint32_t v, double* weight) {
   const SurfaceGeometry& geometry = drop.workspace().geometry;
-  const int degree = drop.connectivity().degree(v);
-  const RingMatrix& edges = geometry.edge_weights();
-  const double* const from = degree > Connectivity::width ? edges.long_weight[drop.connectivity().long_ring(v)].data()
-                                                          : &edges.weight[Connectivity::width * std::size_t{v}];
   RingSums sums;
   sums.air_vector = geometry.area_vector(v);
   sums.air_area = 3 * geometry.lumped_area(v);
-  std::copy_n(from, degree, weight);
+  std::copy_n(ring_weights(geometry.edge_weights(), drop.connectivity(), v), drop.connectivity().degree(v), weight);
   return sums;
 }
 
@@ -164,68 +160,6 @@ void look_at_vertex(const Drop& drop, std::uint32_t v, PressureSurface& surface)
   surface.mass[v] = std::max(surface.volume_gradient[v], least_mass * sums.air_area / 3);
 }
 
-/// The normal equations of tangential_rotation. A motion U + rotation x r has the part P (U + rotation x r) along the
-/// surface, P = I - n n^T; with R = -[r]x and q = R^T n = r x n their blocks are sums of m P, m P R = m (R - n q^T) and
-/// m R^T P R = m (|r|^2 I - r r^T - q q^T).
-struct TangentialFit {
-  double mass = 0, squares = 0;  // sums of m and m |r|^2
-  Vector3d arm = Vector3d::Zero(), momentum = Vector3d::Zero(), angular_momentum = Vector3d::Zero();
-  Matrix3d nn = Matrix3d::Zero(), nq = Matrix3d::Zero(), rr_qq = Matrix3d::Zero();
-
-  void add(double m, const Vector3d& r, const Vector3d& n, const Vector3d& velocity) {
-    const Vector3d q = r.cross(n), along = velocity - velocity.dot(n) * n;
-    mass += m;
-    squares += m * r.squaredNorm();
-    arm += m * r;
-    momentum += m * along;
-    angular_momentum += m * r.cross(along);
-    nn += (m * n) * n.transpose();
-    nq += (m * n) * q.transpose();
-    rr_qq += (m * r) * r.transpose() + (m * q) * q.transpose();
-  }
-  TangentialFit& operator+=(const TangentialFit& other) {
-    mass += other.mass;
-    squares += other.squares;
-    arm += other.arm;
-    momentum += other.momentum;
-    angular_momentum += other.angular_momentum;
-    nn += other.nn;
-    nq += other.nq;
-    rr_qq += other.rr_qq;
-    return *this;
-  }
-  Vector3d rotation() const {
-    Matrix3d R;
-    R << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(), arm.y(), -arm.x(), 0;
-    Eigen::Matrix<double, 6, 6> A;
-    A.topLeftCorner<3, 3>() = mass * Matrix3d::Identity() - nn;
-    A.topRightCorner<3, 3>() = R - nq;
-    A.bottomLeftCorner<3, 3>() = A.topRightCorner<3, 3>().transpose();
-    A.bottomRightCorner<3, 3>() = squares * Matrix3d::Identity() - rr_qq;
-    Eigen::Matrix<double, 6, 1> b;
-    b << momentum, angular_momentum;
-    return A.ldlt().solve(b).tail<3>();
-  }
-};
-
-/// The rotation whose field, with a translation, is nearest to the velocities along the surface: of a
-/// velocity U + rotation x r + u n it is the exact rotation, whatever u.
-Vector3d tangential_rotation(const Drop& drop, const Vector3d& center) {
-  const SurfaceGeometry& geometry = drop.workspace().geometry;
-  const ConstColumns x = drop.positions(), velocity = drop.velocities();
-  const double length = std::sqrt(geometry.area());
-  if (!(length > 0)) return Vector3d::Zero();
-  const TangentialFit fit = sum_over_chunks(drop.num_rows(), TangentialFit{}, [&](std::size_t begin, std::size_t end) {
-    TangentialFit part;
-    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v)
-      if (drop.connectivity().degree(v) > 0)
-        part.add(geometry.lumped_area(v), (x.col(v) - center) / length, geometry.normal(v), velocity.col(v));
-    return part;
-  });
-  const Vector3d rotation = fit.rotation() / length;
-  return rotation.allFinite() ? rotation : Vector3d(Vector3d::Zero());
-}
-
 void find_frame(const Drop& drop, const std::vector<Solid>& solids, double time, PressureSurface& surface) {
   surface.frame.setZero();
   double area = 0;
@@ -254,69 +188,6 @@ PressureArrays& pressure_arrays(Drop& drop) {
   auto& arrays = drop.workspace().pressure;
   if (!arrays) arrays = std::make_shared<PressureArrays>();
   return *arrays;
-}
-
-namespace {
-
-/// Integrals over a body: six volumes, 24 first moments and, where asked for, 120 second moments (x^2, y^2, z^2; yz,
-/// zx, xy) of the part between an origin and a surface.
-struct Moments {
-  double volume = 0;
-  Vector3d first = Vector3d::Zero(), squares = Vector3d::Zero(), products = Vector3d::Zero();
-
-  Moments& operator+=(const Moments& other) {
-    volume += other.volume;
-    first += other.first;
-    squares += other.squares;
-    products += other.products;
-    return *this;
-  }
-  void add_second(double w, const Vector3d& r) {
-    squares += w * r.cwiseAbs2();
-    products += w * Vector3d(r.y() * r.z(), r.z() * r.x(), r.x() * r.y());
-  }
-  Matrix3d second() const {
-    Matrix3d m;
-    m << squares.x(), products.z(), products.y(), products.z(), squares.y(), products.x(), products.y(), products.x(),
-        squares.z();
-    return m / 120;
-  }
-};
-
-template <bool with_second>
-Moments moments_about(const Vector3d& origin, const ConstColumns& x, const Connectivity& connectivity) {
-  const auto& triangles = connectivity.triangles();
-  return sum_over_chunks(triangles.size(), Moments{}, [&](std::size_t begin, std::size_t end) {
-    Moments part;
-    for (std::size_t f = begin; f < end; ++f) {
-      const auto& [i, j, k] = triangles[f];
-      if (i == Connectivity::removed) continue;
-      const Vector3d a = x.col(i) - origin, b = x.col(j) - origin, c = x.col(k) - origin, sum = a + b + c;
-      const double w = a.dot(b.cross(c));
-      part.volume += w;
-      part.first += w * sum;
-      if constexpr (with_second)
-        for (const Vector3d* r : {&a, &b, &c, &sum}) part.add_second(w, *r);
-    }
-    return part;
-  });
-}
-
-}  // namespace
-
-void measure_solid(const ConstColumns& x, const Connectivity& connectivity, PressureSurface& surface) {
-  surface.volume = 0;
-  surface.center.setZero();
-  if (x.cols() == 0) return;
-  const Vector3d origin = x.col(0);
-  const Moments moments = moments_about<false>(origin, x, connectivity);
-  surface.volume = moments.volume / 6;
-  if (surface.volume > 0) surface.center = origin + moments.first / (24 * surface.volume);
-}
-
-Matrix3d inertia_about(const Vector3d& center, const ConstColumns& x, const Connectivity& connectivity) {
-  const Matrix3d second = moments_about<true>(center, x, connectivity).second();
-  return second.trace() * Matrix3d::Identity() - second;
 }
 
 void look_at_surface(Drop& drop, const std::vector<Solid>& solids, double time, PressureArrays& arrays) {

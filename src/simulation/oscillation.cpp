@@ -3,6 +3,8 @@
 
 #include "meniscus/geometry/shapes.h"
 
+#include <Eigen/QR>
+
 #include <cmath>
 #include <limits>
 
@@ -39,6 +41,22 @@ double mode_two_amplitude(const Drop& drop) {
     radius += weight * length;
   }
   return projection / norm / (radius / (4 * M_PI));
+}
+
+Swing fit_swing(const std::vector<double>& samples, double dt) {
+  const auto n = static_cast<Eigen::Index>(samples.size()) - 2;
+  Eigen::MatrixX3d known(n, 3);
+  Eigen::VectorXd next(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    known.row(i) << samples[k + 1], -samples[k], 1;
+    next[i] = samples[k + 2];
+  }
+  const Eigen::Vector3d abc = known.colPivHouseholderQr().solve(next);
+  const double cosine = abc[0] / (2 * std::sqrt(abc[1]));
+  if (!(std::abs(cosine) < 1)) return {};
+  const double phase = std::acos(cosine);
+  return {phase / dt, std::pow(abc[1], M_PI / phase)};
 }
 
 OscillationResult measure_oscillation(int frequency, double amplitude, double dt, int steps,

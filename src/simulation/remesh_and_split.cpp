@@ -76,18 +76,6 @@ MergeOptions merge_options(const StepOptions& step) {
   return options;
 }
 
-StepReport& StepReport::operator+=(const MergeReport& merge) {
-  merges += merge.merges;
-  folds += merge.folds;
-  refused += merge.refused;
-  taken_back += merge.taken_back;
-  retries += merge.retries;
-  cuts += merge.cuts;
-  deleted += merge.deleted;
-  overlap += merge.overlap;
-  return *this;
-}
-
 namespace {
 
 /// remesh_and_split, before specks are looked at. `after` says for what a piece may be found unsound.

@@ -171,10 +171,9 @@ void scan(RemeshState& state) {
     return Sides(x.col(t[0]), x.col(t[1]), x.col(t[2]));
   };
   const auto n = std::as_const(state.drop).contact_normals();
-  const auto is_turned = [&](const std::array<std::uint32_t, 3>& t, const Sides& sides) {
-    const Eigen::Vector3d a = x.col(t[0]), normal = (n.col(t[0]) + n.col(t[1]) + n.col(t[2])) / 3;
-    const Eigen::Vector3d twice_area = (x.col(t[1]) - a).cross(x.col(t[2]) - a);
-    return -0.5 * twice_area.dot(normal) < hardly_facing * sides.greatest;
+  const auto is_turned = [&](const std::array<std::uint32_t, 3>& t) {
+    const Eigen::Vector3d normal = (n.col(t[0]) + n.col(t[1]) + n.col(t[2])) / 3;
+    return facing(x.col(t[0]), x.col(t[1]), x.col(t[2]), normal) < hardly_facing;
   };
   // All faces are looked at on all threads; the few that need more are inspected in their order.
   std::vector<std::uint8_t>& marked = state.scratch.marked_faces;
@@ -188,7 +187,7 @@ void scan(RemeshState& state) {
       const Sides sides = sides_of(t);
       const int colliding = on_solid(t);
       part.sharp += sides.is_sharp();
-      part.turned += colliding == 3 && is_turned(t, sides);
+      part.turned += colliding == 3 && is_turned(t);
       part.films += colliding == 2 && is_film(state, FaceIndex(static_cast<std::uint32_t>(f)));
       const bool may_leave_band =
           colliding == 3 ? may_wet_face_leave_band(state, t, sides) : sides.least < low2 || sides.greatest > high2;

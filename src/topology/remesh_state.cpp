@@ -40,9 +40,7 @@ Eigen::Vector3d RemeshState::solid_normal(HalfedgeIndex h) const {
 }
 
 double RemeshState::facing_solid(HalfedgeIndex h) const {
-  const Eigen::Vector3d a = point(mesh.source(h)), b = point(mesh.target(h)), c = point(apex(h));
-  const double longest2 = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  return longest2 > 0 ? -0.5 * (b - a).cross(c - a).dot(solid_normal(h)) / longest2 : 0;
+  return facing(point(mesh.source(h)), point(mesh.target(h)), point(apex(h)), solid_normal(h));
 }
 
 bool RemeshState::is_wet_face(HalfedgeIndex h) const {
@@ -177,6 +175,11 @@ void RemeshState::update_contact(VertexIndex v) {
   bool has_free_neighbour = false;
   for (int k = 0; k < r.degree; ++k) has_free_neighbour |= !colliding(VertexIndex(r.neighbour[k]));
   drop.contact()[v] = has_free_neighbour ? Contact::line : Contact::wetted;
+}
+
+double facing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& n) {
+  const double longest2 = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return longest2 > 0 ? -0.5 * (b - a).cross(c - a).dot(n) / longest2 : 0;
 }
 
 double cotangent_sum(const RemeshState& state, VertexIndex from, VertexIndex to, VertexIndex o, VertexIndex p) {

@@ -136,6 +136,9 @@ struct RemeshState {
   void update_contact(VertexIndex v);
 };
 
+/// facing_solid of a triangle on a solid whose outward normal there is n.
+double facing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& n);
+
 /// A face of three colliding vertices whose facing_solid is less is turned over, or nearly so.
 constexpr double hardly_facing = 0.01;
 

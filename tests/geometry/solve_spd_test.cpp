@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/geometry/solve_spd.h"
 
-#include "meniscus/core/mesh_data.h"
-#include "meniscus/geometry/flow_matrix.h"
-#include "meniscus/geometry/shapes.h"
+#include "support/flow_step_problem.h"
 
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -20,209 +17,15 @@
 namespace meniscus {
 namespace {
 
+using namespace flow_step;
+
 constexpr SolverMethod jacobi = SolverMethod::conjugate_gradient_jacobi;
 constexpr SolverMethod incomplete = SolverMethod::conjugate_gradient_incomplete_cholesky;
 constexpr SolverMethod cholesky = SolverMethod::cholesky;
 constexpr SolverMethod all_methods[] = {SolverMethod::automatic, jacobi, incomplete, cholesky};
 
-double uniform(std::mt19937& generator) { return static_cast<double>(generator()) / 2147483648.0 - 1; }
-
-/// A sphere whose vertices are moved by up to `amount` edge lengths in each direction.
-Mesh perturbed_sphere(int frequency, double amount, unsigned seed) {
-  Mesh mesh = make_icosphere(Eigen::Vector3d(1, 2, 3), 0.2, frequency);
-  std::mt19937 generator(seed);
-  auto x = positions(mesh);
-  const double edge = 0.24 / frequency;
-  for (Eigen::Index i = 0; i < x.size(); ++i) x(i) += amount * edge * uniform(generator);
-  return mesh;
-}
-
-/// Two cones base to base: their tips have `valence` neighbours each.
-Mesh double_cone(int valence) {
-  MeshData data;
-  for (int k = 0; k < valence; ++k) {
-    const double angle = 2 * 3.14159265358979 * k / valence;
-    data.points.push_back({std::cos(angle), std::sin(angle), 0.1 * std::sin(3 * angle)});
-  }
-  data.points.push_back({0, 0, 1});
-  data.points.push_back({0, 0, -0.7});
-  const auto n = static_cast<std::uint32_t>(valence);
-  for (std::uint32_t k = 0; k < n; ++k) {
-    data.triangles.push_back({k, (k + 1) % n, n});
-    data.triangles.push_back({(k + 1) % n, k, n + 1});
-  }
-  return to_mesh(data);
-}
-
-/// One implicit step on a mesh, with random right-hand sides and a start of zero.
-struct Problem {
-  Connectivity connectivity;
-  SurfaceGeometry geometry;
-  RingMatrix matrix;
-  std::vector<Lanes> rhs, solution;
-  std::vector<std::uint8_t> fixed;
-
-  Problem(const Mesh& mesh, double ratio, bool clamp = false) {
-    connectivity.rebuild(mesh);
-    assemble(mesh, ratio, clamp);
-  }
-
-  /// s = ratio h^2, h^2 about the area a face.
-  void assemble(const Mesh& mesh, double ratio, bool clamp) {
-    geometry.compute(positions(mesh), connectivity);
-    assemble_flow_matrix(connectivity, geometry, ratio * 2 * geometry.area() / double(mesh.number_of_faces()), clamp,
-                         matrix);
-    std::mt19937 generator(7);
-    rhs.assign(connectivity.num_rows(), Lanes{});
-    for (std::size_t i = 0; i < rhs.size(); ++i)
-      if (connectivity.degree(static_cast<std::uint32_t>(i)) > 0)
-        rhs[i] = Lanes{uniform(generator), uniform(generator), uniform(generator), 0};
-    solution.assign(rhs.size(), Lanes{});
-    fixed.assign(rhs.size(), 0);
-  }
-
-  SolveReport solve(SpdSolver& solver, SolverMethod method, double tolerance = 1e-12, int max_iterations = 5000,
-                    bool pattern_changed = true) {
-    SolverOptions options;
-    options.method = method;
-    options.tolerance = tolerance;
-    options.max_iterations = max_iterations;
-    return solver.solve(connectivity, matrix, rhs.data(), solution.data(), fixed.data(), pattern_changed, options);
-  }
-  SolveReport solve(SolverMethod method, double tolerance = 1e-12, int max_iterations = 5000) {
-    SpdSolver solver;
-    return solve(solver, method, tolerance, max_iterations);
-  }
-
-  /// The matrix as the header describes it, read from the rings one by one.
-  Eigen::MatrixXd dense() const {
-    const auto n = static_cast<Eigen::Index>(rhs.size());
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
-    for (std::uint32_t v = 0; v < n; ++v) {
-      A(v, v) += matrix.diagonal[v];
-      const Ring ring = connectivity.ring(v);
-      const double* const weight = ring.degree > Connectivity::width
-                                       ? matrix.long_weight[connectivity.long_ring(v)].data()
-                                       : &matrix.weight[8 * std::size_t{v}];
-      for (int k = 0; k < ring.degree; ++k) A(v, ring.neighbour[k]) -= weight[k];
-    }
-    return A;
-  }
-
-  static Eigen::MatrixX3d columns_of(const std::vector<Lanes>& lanes) {
-    Eigen::MatrixX3d X(static_cast<Eigen::Index>(lanes.size()), 3);
-    for (std::size_t i = 0; i < lanes.size(); ++i) X.row(static_cast<Eigen::Index>(i)) = to_eigen(lanes[i]);
-    return X;
-  }
-
-  /// The solution by dense LDL^T of the system without the fixed rows and columns.
-  Eigen::MatrixX3d reference() const {
-    std::vector<Eigen::Index> moving;
-    for (std::size_t i = 0; i < fixed.size(); ++i)
-      if (!fixed[i]) moving.push_back(static_cast<Eigen::Index>(i));
-    const Eigen::MatrixXd A = dense();
-    Eigen::MatrixX3d X = Eigen::MatrixX3d::Zero(A.rows(), 3);
-    const Eigen::MatrixX3d B = columns_of(rhs);
-    const Eigen::MatrixXd reduced = A(moving, moving), b = B(moving, Eigen::all);
-    const Eigen::MatrixXd x = reduced.ldlt().solve(b);
-    X(moving, Eigen::all) = x;
-    return X;
-  }
-
-  /// |x - reference| / |reference|.
-  double error() const {
-    const Eigen::MatrixX3d X = reference();
-    return (columns_of(solution) - X).norm() / X.norm();
-  }
-};
-
 bool same_bits(const std::vector<Lanes>& a, const std::vector<Lanes>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Lanes)) == 0;
-}
-
-TEST(FlowMatrix, IsSymmetricPositiveDefiniteOnRandomSurfaces) {
-  EXPECT_TRUE(rc::check([] {
-    const auto seed = *rc::gen::arbitrary<unsigned>();
-    const bool clamp = *rc::gen::arbitrary<bool>();
-    const double ratio = std::pow(10.0, *rc::gen::inRange(-2, 4));
-    const Mesh mesh = perturbed_sphere(*rc::gen::inRange(1, 5), 0.1 * *rc::gen::inRange(0, 6), seed);
-    const Eigen::MatrixXd A = Problem(mesh, ratio, clamp).dense();
-    RC_ASSERT(A == A.transpose().eval());
-    const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).eigenvalues();
-    RC_ASSERT(eigenvalues.minCoeff() > 0);
-  }));
-}
-
-TEST(FlowMatrix, StiffnessHasConstantsInItsNullSpaceAndMassHasTheArea) {
-  const Mesh mesh = perturbed_sphere(4, 0.4, 3);
-  for (const bool clamp : {false, true}) {
-    const Problem problem(mesh, 50, clamp);
-    const Eigen::MatrixXd A = problem.dense();
-    const Eigen::VectorXd sums = A * Eigen::VectorXd::Ones(A.cols());  // M 1
-    for (std::uint32_t v = 0; v < sums.size(); ++v)
-      EXPECT_NEAR(sums[v], problem.geometry.lumped_area(v), 1e-14 * A(v, v));
-    EXPECT_NEAR(sums.sum(), problem.geometry.area(), 1e-13 * A.diagonal().sum());
-  }
-}
-
-TEST(FlowMatrix, WeighsAnEquilateralEdgeByItsCotangents) {
-  // A regular tetrahedron: every edge has (s/2) (cot 60 + cot 60) = s / sqrt(3).
-  MeshData data;
-  data.points = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-  data.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
-  const Mesh mesh = to_mesh(data);
-  Connectivity connectivity;
-  connectivity.rebuild(mesh);
-  SurfaceGeometry geometry;
-  geometry.compute(positions(mesh), connectivity);
-  RingMatrix matrix;
-  assemble_flow_matrix(connectivity, geometry, 0.75, false, matrix);
-  for (std::size_t v = 0; v < 4; ++v) {
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(matrix.weight[8 * v + k], 0.75 / std::sqrt(3.0), 1e-15);
-    for (std::size_t k = 3; k < 8; ++k) EXPECT_EQ(matrix.weight[8 * v + k], 0);
-    EXPECT_NEAR(matrix.diagonal[v], 0.75 * std::sqrt(3.0) + geometry.area() / 4, 1e-14);
-  }
-}
-
-TEST(FlowMatrix, ClampsTheSumOfAnEdgeNotEachCotangent) {
-  const Mesh mesh = perturbed_sphere(5, 0.45, 11);
-  const Problem plain(mesh, 10), clamped(mesh, 10, true);
-  int num_negative = 0;
-  for (std::size_t k = 0; k < plain.matrix.weight.size(); ++k) {
-    num_negative += plain.matrix.weight[k] < 0;
-    EXPECT_EQ(clamped.matrix.weight[k], std::max(plain.matrix.weight[k], 0.0));
-  }
-  EXPECT_GT(num_negative, 0);
-}
-
-TEST(FlowMatrix, RightHandSideIsMinusStiffnessTimesPositions) {
-  for (const Mesh& mesh : {perturbed_sphere(4, 0.3, 5), double_cone(40)}) {
-    Problem problem(mesh, 10);
-    Eigen::MatrixXd S = problem.dense();  // s L
-    for (std::uint32_t v = 0; v < S.rows(); ++v) S(v, v) -= problem.geometry.lumped_area(v);
-    const Eigen::MatrixX3d expected = -S * positions(mesh).transpose();
-    curvature_right_hand_side(problem.connectivity, problem.matrix, positions(mesh), problem.rhs.data());
-    const double scale = S.cwiseAbs().sum() / double(S.rows());
-    EXPECT_LT((Problem::columns_of(problem.rhs) - expected).cwiseAbs().maxCoeff(), 1e-12 * scale);
-    for (const Lanes& b : problem.rhs) EXPECT_EQ(b[3], 0);
-  }
-}
-
-TEST(FlowMatrix, RowsWithoutAreaAreRowsOfTheIdentity) {
-  Mesh mesh = make_icosphere(Eigen::Vector3d::Zero(), 1, 1);
-  positions(mesh).setOnes();  // every face a point
-  const Problem problem(mesh, 0);
-  EXPECT_EQ(problem.dense(), Eigen::MatrixXd::Identity(12, 12));
-}
-
-TEST(Multiply, EqualsTheDenseProduct) {
-  for (const Mesh& mesh : {perturbed_sphere(4, 0.3, 5), double_cone(40), double_cone(9)}) {
-    const Problem problem(mesh, 10);
-    std::vector<Lanes> y(problem.rhs.size());
-    multiply(problem.connectivity, problem.matrix, problem.rhs.data(), y.data());
-    const Eigen::MatrixX3d expected = problem.dense() * Problem::columns_of(problem.rhs);
-    EXPECT_LT((Problem::columns_of(y) - expected).norm(), 1e-14 * expected.norm());
-  }
 }
 
 TEST(SpdSolver, AgreesWithDenseFactorisation) {

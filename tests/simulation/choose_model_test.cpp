@@ -175,22 +175,6 @@ TEST(ChooseModel, GoesThroughACheckpoint) {
   }
 }
 
-/// Frequency (rad/s) and what an amplitude keeps of itself a period, of samples dt apart of a damped swing:
-/// x_{n+1} = a x_n - b x_{n-1} + c by least squares, b = exp(-2 g dt), a = 2 exp(-g dt) cos(omega dt) (Prony).
-std::pair<double, double> swing_of(const std::vector<double>& x, double dt) {
-  const auto n = static_cast<Eigen::Index>(x.size()) - 2;
-  Eigen::MatrixX3d known(n, 3);
-  Eigen::VectorXd next(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    known.row(i) << x[k + 1], -x[k], 1;
-    next[i] = x[k + 2];
-  }
-  const Eigen::Vector3d abc = known.colPivHouseholderQr().solve(next);
-  const double omega = std::acos(abc[0] / (2 * std::sqrt(abc[1]))) / dt;
-  return {omega, std::pow(abc[1], pi / (omega * dt))};
-}
-
 TEST(ChooseModel, MotionIsWhatIsAskedFor) {
   Scene scene = scene_of("motion", R"("gravity": [0, 0, 0], "liquid": {"viscosity": 0}, )");
   scene.mesh = {0.02, 0.06, 0.5, 1};
@@ -202,7 +186,7 @@ TEST(ChooseModel, MotionIsWhatIsAskedFor) {
     amplitudes.push_back(mode_two_amplitude(simulation.drops().front()));
     simulation.step();
   }
-  const auto [omega, kept] = swing_of(amplitudes, scene.time_step);
+  const auto [omega, kept] = fit_swing(amplitudes, scene.time_step);
   const AccuracyTarget target = target_of(Accuracy::motion);
   EXPECT_NEAR(omega / std::sqrt(8 * 72 / 0.008), 1, target.frequency_error);
   EXPECT_NEAR(kept, 1, target.amplitude_error);

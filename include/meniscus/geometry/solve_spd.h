@@ -55,6 +55,12 @@ struct RingMatrix {
   std::vector<std::vector<double>> long_weight;  ///< one a long ring
 };
 
+/// The weights of vertex v's ring, one a neighbour.
+inline const double* ring_weights(const RingMatrix& matrix, const Connectivity& connectivity, std::uint32_t v) {
+  return connectivity.degree(v) > Connectivity::width ? matrix.long_weight[connectivity.long_ring(v)].data()
+                                                      : &matrix.weight[Connectivity::width * std::size_t{v}];
+}
+
 /// y = A x. Arrays of n rows; y must not alias x.
 void multiply(const Connectivity& connectivity, const RingMatrix& matrix, const Lanes* x, Lanes* y);
 

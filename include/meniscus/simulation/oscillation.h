@@ -3,6 +3,9 @@
 
 #include "meniscus/simulation/step.h"
 
+#include <limits>
+#include <vector>
+
 namespace meniscus {
 
 /// A ball of `radius` (cm) about the origin, stretched along z by mode 2 of relative amplitude
@@ -11,6 +14,17 @@ Drop oscillating_drop(int frequency, double radius, double amplitude);
 
 /// The amplitude of mode 2 of a drop: the projection of the radius on P2, over the mean radius.
 double mode_two_amplitude(const Drop& drop);
+
+/// A damped swing.
+struct Swing {
+  double angular_frequency = std::numeric_limits<double>::quiet_NaN();  ///< rad/s
+  double kept_per_period = std::numeric_limits<double>::quiet_NaN();    ///< of the amplitude
+};
+
+/// The swing that samples dt (s) apart are of, about any mean, however few a period, by Prony's method: x_{n+1} = a x_n
+/// - b x_{n-1} + c by least squares, a = 2 exp(-g dt) cos(omega dt), b = exp(-2 g dt). NaN if they creep.
+/// Precondition: at least five samples.
+Swing fit_swing(const std::vector<double>& samples, double dt);
 
 /// A drop left to oscillate in mode 2, beside Rayleigh's sqrt(8 sigma/(rho R^3)).
 struct OscillationResult {

@@ -4,8 +4,8 @@
 #include "meniscus/core/mesh_data.h"
 #include "meniscus/core/types.h"
 #include "meniscus/geometry/connectivity.h"
-#include "meniscus/geometry/solve_spd.h"
-#include "meniscus/geometry/surface_geometry.h"
+#include "meniscus/state/contact.h"
+#include "meniscus/state/workspace.h"
 
 #include <Eigen/Geometry>
 
@@ -14,56 +14,6 @@
 #include <vector>
 
 namespace meniscus {
-
-/// Where a vertex is in respect to the solids.
-enum class Contact : std::uint8_t {
-  free = 0,    ///< on the water-air surface
-  wetted = 1,  ///< on a solid, like all its neighbours
-  line = 2,    ///< on a solid, with a neighbour that is not: the contact line of the paper's Figure 3
-};
-
-inline bool is_colliding(Contact contact) { return contact != Contact::free; }
-
-/// What a vertex of the contact line did last, at the level `pressure`; `advancing` off the line.
-enum class LineStatus : std::uint8_t { advancing = 0, stuck = 1, receding = 2 };
-
-struct PressureArrays;  ///< of operators/pressure.h
-
-class Drop;
-
-/// What operators write of a drop, kept so that a bad substep can be taken back, but for the last displacements, which
-/// restore() sets to zero. Operators never change elements, so flat copies do. Allocates nothing while the number of
-/// rows stands.
-class KeptState {
- public:
-  void keep(Drop& drop);
-  /// Precondition: the drop's elements are those of the last keep().
-  void restore(Drop& drop) const;
-  const Eigen::Matrix3Xd& positions() const { return positions_; }
-
- private:
-  Eigen::Matrix3Xd positions_, velocities_, contact_normals_;
-  std::vector<Contact> contact_;
-  std::vector<std::int32_t> contact_solid_;
-  std::vector<std::uint8_t> line_status_;
-  double target_volume_ = 0;
-  bool touched_ = false;  ///< a solid; what belongs to contact is kept only then
-};
-
-/// The arrays that operators need within a step, kept so that an unchanged mesh allocates nothing. What comes out of
-/// a step does not depend on what is in them at its start.
-struct Workspace {
-  SurfaceGeometry geometry;
-  RingMatrix matrix;
-  SpdSolver solver;
-  std::vector<Lanes> rhs, solution;
-  std::vector<Eigen::Vector3d> vectors;
-  std::vector<double> scalars, more_scalars;
-  std::vector<std::uint8_t> fixed;
-  KeptState kept;                            ///< at the start of the substep
-  std::vector<std::uint8_t> violent_faces;   ///< by face, of the last FaceChanges
-  std::shared_ptr<PressureArrays> pressure;  ///< made at first use
-};
 
 /// A drop of liquid: a closed, outward-oriented triangle mesh with velocities, contact state and
 /// the volume that it ought to have.

@@ -58,7 +58,7 @@ void find_offset(Drop& drop, const SurfaceGeometry& geometry, const std::vector<
 }  // namespace
 
 void offset_around(Drop& drop, std::vector<std::uint32_t> held, double volume, const WatchedRegion& region) {
-  constexpr int most_rounds = 6;
+  constexpr int most_rounds = 12;
   SurfaceGeometry geometry;
   geometry.compute(std::as_const(drop).positions(), drop.connectivity());
   const Eigen::Matrix3Xd before = drop.positions();

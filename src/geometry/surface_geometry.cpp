@@ -2,6 +2,7 @@
 #include "meniscus/geometry/surface_geometry.h"
 
 #include "meniscus/core/chunks.h"
+#include "meniscus/geometry/four_triangles.h"
 
 #include <Eigen/Geometry>
 
@@ -11,34 +12,41 @@
 namespace meniscus {
 namespace {
 
-/// Area vector, cotangents and mixed Voronoi areas of the triangle a, b, c.
-FaceGeometry face_geometry(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const Eigen::Vector3d u = b - a, w = c - a;
-  const Eigen::Vector3d n = 0.5 * u.cross(w);
-  const double uu = u.squaredNorm(), ww = w.squaredNorm(), uw = u.dot(w);
-  const double area = n.norm();
-  FaceGeometry face;
-  face.area_vector = {n.x(), n.y(), n.z()};
-  if (area <= 0) {
-    face.cotangent = {0, 0, 0};
-    face.area = {0, 0, 0};
-    return face;
+/// What four triangles contribute.
+struct FourFaces {
+  FourVectors area_vector;
+  std::array<Four, 3> cotangent, area;
+};
+
+/// Area vectors, cotangents and mixed Voronoi areas of four triangles a, b, c.
+FourFaces face_geometry(const FourVectors& a, const FourVectors& b, const FourVectors& c) {
+  const FourVectors u = b - a, w = c - a, cross = u.cross(w);
+  const Four uu = u.dot(u), ww = w.dot(w), uw = u.dot(w);
+  const Four area = 0.5 * square_root(cross.dot(cross));
+  const Four zero{};
+  const Four s = area <= 0 ? zero : 0.5 / area;  // cot = dot / |cross|
+  const Four cot_a = uw * s, cot_b = (uu - uw) * s, cot_c = (ww - uw) * s;
+  const Four vv = uu + ww - 2 * uw;  // |bc|^2
+  const Four ab = uu * cot_c * 0.125, ac = ww * cot_b * 0.125, bc = vv * cot_a * 0.125;
+  const Four half = 0.5 * area, quarter = 0.25 * area;
+  const auto obtuse = [&](const Four& own, const Four& other, const Four& third, const Four& voronoi) -> Four {
+    return own < 0 ? half : other < 0 ? quarter : third < 0 ? quarter : voronoi;
+  };
+  return {{0.5 * cross.x, 0.5 * cross.y, 0.5 * cross.z},
+          {cot_a, cot_b, cot_c},
+          {obtuse(cot_a, cot_b, cot_c, ab + ac), obtuse(cot_b, cot_a, cot_c, ab + bc),
+           obtuse(cot_c, cot_a, cot_b, ac + bc)}};
+}
+
+void store(const FourFaces& four, FaceGeometry* faces, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) {
+    FaceGeometry& face = faces[k];
+    face.area_vector = {four.area_vector.x[k], four.area_vector.y[k], four.area_vector.z[k]};
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      face.cotangent[corner] = four.cotangent[corner][k];
+      face.area[corner] = four.area[corner][k];
+    }
   }
-  const double s = 0.5 / area;  // cot = dot / |cross|
-  const double cot_a = uw * s, cot_b = (uu - uw) * s, cot_c = (ww - uw) * s;
-  face.cotangent = {cot_a, cot_b, cot_c};
-  if (cot_a < 0)
-    face.area = {0.5 * area, 0.25 * area, 0.25 * area};
-  else if (cot_b < 0)
-    face.area = {0.25 * area, 0.5 * area, 0.25 * area};
-  else if (cot_c < 0)
-    face.area = {0.25 * area, 0.25 * area, 0.5 * area};
-  else {
-    const double vv = uu + ww - 2 * uw;  // |bc|^2
-    const double ab = uu * cot_c * 0.125, ac = ww * cot_b * 0.125, bc = vv * cot_a * 0.125;
-    face.area = {ab + ac, ab + bc, ac + bc};
-  }
-  return face;
 }
 
 struct Sums {
@@ -55,21 +63,25 @@ struct Sums {
 
 void SurfaceGeometry::compute_faces(const ConstColumns& x, const Connectivity& connectivity) {
   const auto& triangles = connectivity.triangles();
-  const Eigen::Vector3d origin = x.cols() == 0 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(x.col(0));
+  if (x.cols() == 0 || triangles.empty()) {
+    area_ = volume_ = 0;
+    return;
+  }
+  const FourVectors origin = {constant(x(0, 0)), constant(x(1, 0)), constant(x(2, 0))};
   const Sums sums = sum_over_chunks(triangles.size(), Sums{}, [&](std::size_t begin, std::size_t end) {
-    Sums part;
-    for (std::size_t f = begin; f < end; ++f) {
-      const auto& [i, j, k] = triangles[f];
-      if (i == Connectivity::removed) {
-        faces_[f] = {};
-        continue;
-      }
-      const Eigen::Vector3d a = x.col(i);
-      FaceGeometry& face = faces_[f] = face_geometry(a, x.col(j), x.col(k));
-      part.area += face.area[0] + face.area[1] + face.area[2];
-      part.volume += (a - origin).dot(Eigen::Vector3d(face.area_vector[0], face.area_vector[1], face.area_vector[2]));
+    Four area{}, volume{};
+    for (std::size_t f = begin; f < end; f += 4) {
+      const FourTriangles four(triangles, f, end);
+      const FourVectors a = four.corner(x.data(), 0);
+      const FourFaces faces = face_geometry(a, four.corner(x.data(), 1), four.corner(x.data(), 2));
+      area += faces.area[0] + faces.area[1] + faces.area[2];
+      volume += (a - origin).dot(faces.area_vector);
+      if (end - f >= 4)
+        store(faces, &faces_[f], 4);
+      else
+        store(faces, &faces_[f], end - f);
     }
-    return part;
+    return Sums{sum(area), sum(volume)};
   });
   area_ = sums.area;
   volume_ = sums.volume / 3;
@@ -122,18 +134,19 @@ void SurfaceGeometry::compute(const ConstColumns& x, const Connectivity& connect
 
 double enclosed_volume(const ConstColumns& x, const Connectivity& connectivity) {
   if (x.cols() == 0) return 0;
-  const Eigen::Vector3d origin = x.col(0);
+  const FourVectors origin = {constant(x(0, 0)), constant(x(1, 0)), constant(x(2, 0))};
   const auto& triangles = connectivity.triangles();
   return sum_over_chunks(triangles.size(), 0.0,
                          [&](std::size_t begin, std::size_t end) {
-                           double volume = 0;
-                           for (std::size_t f = begin; f < end; ++f) {
-                             const auto& [i, j, k] = triangles[f];
-                             if (i == Connectivity::removed) continue;
-                             const Eigen::Vector3d a = x.col(i) - origin, b = x.col(j) - origin, c = x.col(k) - origin;
+                           Four volume{};
+                           for (std::size_t f = begin; f < end; f += 4) {
+                             const FourTriangles four(triangles, f, end);
+                             const FourVectors a = four.corner(x.data(), 0) - origin;
+                             const FourVectors b = four.corner(x.data(), 1) - origin;
+                             const FourVectors c = four.corner(x.data(), 2) - origin;
                              volume += a.dot(b.cross(c));
                            }
-                           return volume;
+                           return sum(volume);
                          }) /
          6;
 }

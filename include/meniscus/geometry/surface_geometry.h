@@ -34,6 +34,10 @@ class SurfaceGeometry {
   Eigen::Vector3d area_vector(std::uint32_t v) const { return area_vector_[v]; }
   /// Outward unit normal, area weighted; zero for a removed vertex.
   Eigen::Vector3d normal(std::uint32_t v) const { return normal_[v]; }
+  /// All of them, 3 x n.
+  ConstColumns normals() const {
+    return {normal_.empty() ? nullptr : normal_.front().data(), static_cast<Eigen::Index>(normal_.size())};
+  }
   /// The vertex's lumped area (cm^2), mixed Voronoi; zero for a removed vertex.
   double lumped_area(std::uint32_t v) const { return lumped_area_[v]; }
   /// The half sums of cotangents: edge k of ring v weighs weight[8 v + k] = (cot alpha + cot beta)/2, be it below zero;

@@ -63,19 +63,19 @@ void stop(Drop& drop, std::uint32_t v, const Vector3d& n, const Vector3d& solid_
 }
 
 /// Puts a vertex that is below p, on a solid of normal n, above it, and stops it.
-void lift(Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n, const Solid& solid, double time) {
+void lift(Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n, const Vector3d& solid_velocity) {
   Columns x = drop.positions();
   const Ring ring = drop.connectivity().ring(v);
   double length = 0, lowest = 0;
   for (int k = 0; k < ring.degree; ++k) {
-    const Vector3d neighbour = x.col(ring.neighbour[k]);
-    length += (neighbour - p).norm() / ring.degree;
-    lowest = std::min(lowest, (solid.query(neighbour, time).point - p).dot(n));
+    const Vector3d edge = x.col(ring.neighbour[k]) - p;
+    length += edge.norm() / ring.degree;
+    lowest = std::min(lowest, edge.dot(n));
   }
   // Where the solid curves away, the film's faces cut that much below its vertices.
   const double sagitta = std::min(-0.25 * lowest, largest_sagitta * length);
   x.col(v) = p + (film_thickness * length + sagitta) * n;
-  stop(drop, v, n, solid.velocity(time));
+  stop(drop, v, n, solid_velocity);
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ void lift_films(Drop& drop, const std::vector<Solid>& solids, double time, doubl
       if (below.distance > 0)
         stop(drop, v, below.normal, solid.velocity(time));
       else
-        lift(drop, v, below.point, below.normal, solid, time);
+        lift(drop, v, below.point, below.normal, solid.velocity(time));
     }
   }
 }
@@ -113,7 +113,7 @@ void lift_landed(Drop& drop, const std::vector<Solid>& solids, double time, cons
     if (below.inflow) continue;
     const Vector3d p = drop.positions().col(v), n = drop.contact_normals().col(v);
     if (!wetted.cover(p, n, v)) continue;
-    lift(drop, v, p, n, below, time);
+    lift(drop, v, p, n, below.velocity(time));
     drop.contact()[v] = Contact::free;
     solid = -1;
   }

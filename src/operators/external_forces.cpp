@@ -76,8 +76,11 @@ class Collider {
         time_(time),
         dt_(dt),
         options_(options) {
-    for (std::size_t s = 0; s < solids.size(); ++s)
-      if (solids[s].is_near(box, time, options.touching_distance)) near_.push_back(s);
+    for (std::size_t s = 0; s < solids.size(); ++s) {
+      if (!solids[s].is_near(box, time, options.touching_distance)) continue;
+      near_.push_back(s);
+      hangs_.push_back(solids[s].inflow && hangs_from(drop, static_cast<std::int32_t>(s)));
+    }
     if (near_.size() != 1 || !options.no_slip) return;
     const Solid& only = solids[near_[0]];
     if (!only.inflow && only.offset(time) == only.offset(time - dt)) holder_ = static_cast<std::int32_t>(near_[0]);
@@ -100,12 +103,14 @@ class Collider {
     for (int pass = 0; pass < max_collision_passes; ++pass) {
       std::size_t deepest = solids_.size();
       SolidContact contact{0, Vector3d::Zero(), Vector3d::Zero()};
-      for (const std::size_t s : near_) {
+      for (std::size_t k = 0; k < near_.size(); ++k) {
+        const std::size_t s = near_[k];
         if (colliding && static_cast<std::int32_t>(s) == touched) continue;
         if (!solids_[s].is_near(Vector3d(x_.col(i)), time_, options_.touching_distance)) continue;
         const SolidContact candidate = solids_[s].query(x_.col(i), time_);
         if (candidate.distance <= options_.touching_distance &&
-            (deepest == solids_.size() || candidate.distance < contact.distance)) {
+            (deepest == solids_.size() || candidate.distance < contact.distance) &&
+            !(solids_[s].inflow && comes_from_behind(i, solids_[s], hangs_[k] != 0, candidate))) {
           deepest = s;
           contact = candidate;
         }
@@ -122,6 +127,23 @@ class Collider {
  private:
   /// Inside the wetted area of a solid at rest, without slip and with no other solid near, a vertex stands still.
   bool is_held(std::uint32_t i, std::int32_t touched) const { return touched == holder_ && v_.col(i).isZero(0); }
+
+  /// A source's disc stops what comes on it from the front. What else gets behind it passes: a vertex deeper than it
+  /// went in this step and its faces reach, and, of a drop that does not hang from the disc, one whose faces look the
+  /// disc's way.
+  bool comes_from_behind(std::uint32_t i, const Solid& source, bool hangs, const SolidContact& contact) const {
+    const Ring ring = drop_.connectivity().ring(i);
+    const Vector3d x = x_.col(i);
+    Vector3d normal = Vector3d::Zero();
+    double length = 0;
+    for (int k = 0; k < ring.degree; ++k) {
+      const Vector3d u = Vector3d(x_.col(ring.neighbour[k])) - x;
+      normal += u.cross(Vector3d(x_.col(ring.neighbour[k + 1 == ring.degree ? 0 : k + 1])) - x);
+      length += u.norm() / ring.degree;
+    }
+    const double way = std::max(0.0, -(v_.col(i) - source.velocity(time_)).dot(contact.normal)) * dt_;
+    return -contact.distance > way + 0.5 * length || (!hangs && normal.dot(contact.normal) > 0);
+  }
 
   /// Where a vertex that stays on its solid is now. A contact line vertex goes no further than the normal turns
   /// by 30 degrees, so that it does not pass an edge without having been on it: there Gibbs's condition holds it.
@@ -171,7 +193,8 @@ class Collider {
   Drop& drop_;
   const std::vector<Solid>& solids_;
   std::vector<std::size_t> near_;
-  std::int32_t holder_ = -2;  // the one solid that is near, if it is at rest and holds what is on it; else none
+  std::vector<std::uint8_t> hangs_;  // for each: it is a source, and the drop hangs from it
+  std::int32_t holder_ = -2;         // the one solid that is near, if it is at rest and holds what is on it; else none
   Columns x_, v_, n_;
   double time_, dt_;
   const ExternalForcesOptions& options_;
@@ -215,7 +238,7 @@ void find_contact(Drop& drop, const std::vector<Solid>& solids, double time, dou
       const Vector3d x = drop.positions().col(i);
       if (!solids[s].is_near(x, time, tolerance)) continue;
       const SolidContact candidate = solids[s].query(x, time);
-      if (candidate.distance > nearest) continue;
+      if (candidate.distance > nearest || (solids[s].inflow && candidate.distance < -tolerance)) continue;
       nearest = candidate.distance;
       contact[i] = Contact::wetted;
       drop.contact_solid()[i] = static_cast<std::int32_t>(s);

@@ -193,7 +193,9 @@ bool PressureStep::is_short_enough(double dt) const {
     for (std::uint32_t v = 0; v < surface.role.size(); ++v) {
       if (!is_on_surface(surface.role[v])) continue;
       const Vector3d end = motion.end(v);
-      if (solid.is_near(end, time_ + dt, 0) && solid.query(end, time_ + dt).distance < -deepest) return false;
+      if (!solid.is_near(end, time_ + dt, 0) || !(solid.query(end, time_ + dt).distance < -deepest)) continue;
+      const Vector3d start = drop_.positions().col(v);  // behind the disc of a source liquid passes
+      if (!(solid.inflow && solid.query(start, time_).distance < -deepest)) return false;
     }
   }
   return true;

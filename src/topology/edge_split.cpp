@@ -133,6 +133,8 @@ Refusal try_split(RemeshState& state, HalfedgeIndex h) {
     m = off_the_solid(state, a, b, m);
     if (m != middle && state.split_would_meet(h, m)) m = middle;
   }
+  // On faces folded onto each other without a gap, rounding decides.
+  if (m == middle && state.split_would_meet(h, middle)) return Refusal::near_intersection;
   split_at(state, h, m, contact);
   return Refusal::none;
 }

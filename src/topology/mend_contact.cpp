@@ -42,6 +42,9 @@ bool has_wet_face(const RemeshState& state, VertexIndex v) {
   return false;
 }
 
+/// Faces about v meet each other or others as it is: then no operation can be asked to keep them apart.
+bool meets_already(const RemeshState& state, VertexIndex v) { return state.star_would_meet(v, state.point(v)); }
+
 /// A wetted vertex that was overtaken joins the neighbour that leaves the faces lying best, one of
 /// the contact line if all else is equal.
 bool join_a_neighbour(RemeshState& state, VertexIndex v, const Lie& now) {
@@ -53,7 +56,7 @@ bool join_a_neighbour(RemeshState& state, VertexIndex v, const Lie& now) {
       if (state.on_line(target) != is_line) continue;
       const Lie lie = lie_with_vertex_at(state, v, target, state.point(target));
       if (!lie.is_better_than(best_lie) || !is_collapse_ok(state, h)) continue;
-      if (state.collapse_would_meet(target, v, state.point(target))) continue;
+      if (state.collapse_would_meet(target, v, state.point(target)) && !meets_already(state, v)) continue;
       best = h;
       best_lie = lie;
     }
@@ -81,7 +84,7 @@ bool move_to_middle(RemeshState& state, VertexIndex v, const Lie& now) {
   for (int k = 0; k < r.degree; ++k) step += (state.point(VertexIndex(r.neighbour[k])) - x) / r.degree;
   step -= step.dot(n) * n;
   if (!lie_with_vertex_at(state, v, Mesh::null_vertex(), x + step).is_better_than(now)) return false;
-  if (state.star_would_meet(v, x + step)) return false;
+  if (state.star_would_meet(v, x + step) && !meets_already(state, v)) return false;
   state.mesh.point(v) = to_point(x + step);
   mark_moved(state, v);
   return true;

@@ -223,9 +223,9 @@ bool meet_each_other(const Drop& drop, const std::vector<FaceBox>& faces) {
 
 std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& before, const MergeOptions& options,
                                             Remesher& remesher, MergeReport& report) {
-  const WatchedRegion region =
-      options.self_merge ? WatchedRegion() : watched_region(drop, options.remesh.band.edge_max);
+  WatchedRegion region = options.self_merge ? WatchedRegion() : watched_region(drop, options.remesh.band.edge_max);
   if (region.empty()) return std::nullopt;
+  region.add(contact_slab(drop));  // what is taken back is offset elsewhere, and films must not come through
   FoldFinder finder(drop, region.faces_of(drop));
   if (finder.meeting().empty()) {
     count_down_watch(drop, options.remesh.band.edge_max);

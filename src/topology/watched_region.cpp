@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meniscus {
 namespace {
@@ -13,6 +14,31 @@ using Eigen::Vector3d;
 constexpr double most_cells_along = 1e6;
 
 }  // namespace
+
+bool ContactSlab::reaches_into(const Vector3d& a, const Vector3d& b, const Vector3d& c) const {
+  return (up.dot(a) <= top || up.dot(b) <= top || up.dot(c) <= top) &&
+         box.intersects(Eigen::AlignedBox3d(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)));
+}
+
+ContactSlab contact_slab(const Drop& drop) {
+  constexpr double rounding = 1e-9;
+  const ConstColumns x = drop.positions(), n = drop.contact_normals();
+  ContactSlab slab;
+  const auto for_each_colliding = [&](auto visit) {
+    for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
+      if (is_colliding(drop.contact()[v]) && drop.connectivity().degree(v) > 0) visit(v);
+  };
+  for_each_colliding([&](std::uint32_t v) {
+    slab.box.extend(Vector3d(x.col(v)));
+    slab.up += n.col(v);
+  });
+  if (slab.box.isEmpty()) return slab;
+  slab.up.stableNormalize();
+  slab.top = -std::numeric_limits<double>::infinity();
+  for_each_colliding([&](std::uint32_t v) { slab.top = std::max(slab.top, slab.up.dot(x.col(v))); });
+  slab.top += rounding * slab.box.diagonal().norm();
+  return slab;
+}
 
 WatchedRegion::WatchedRegion(const Drop& drop, double reach) {
   const ConstColumns x = drop.positions();
@@ -39,14 +65,15 @@ WatchedRegion::Cell WatchedRegion::cell(const Vector3d& x) const {
 
 std::vector<FaceBox> WatchedRegion::faces_of(const Drop& drop) const {
   const ConstColumns x = drop.positions();
-  std::vector<std::uint8_t> is_covered(drop.num_rows(), 1);
-  for (std::uint32_t v = 0; v < drop.num_rows() && !is_everywhere_; ++v) is_covered[v] = covers(Vector3d(x.col(v)));
+  std::vector<std::uint8_t> is_covered(drop.num_rows(), static_cast<std::uint8_t>(is_everywhere_));
+  for (std::uint32_t v = 0; v < drop.num_rows() && !cells_.empty(); ++v) is_covered[v] = covers(Vector3d(x.col(v)));
   std::vector<FaceBox> faces;
   const auto& triangles = drop.connectivity().triangles();
   for (std::uint32_t f = 0; f < triangles.size(); ++f) {
     const auto& [a, b, c] = triangles[f];
-    if (a == Connectivity::removed || (is_covered[a] | is_covered[b] | is_covered[c]) == 0) continue;
+    if (a == Connectivity::removed) continue;
     const Vector3d p = x.col(a), q = x.col(b), r = x.col(c);
+    if ((is_covered[a] | is_covered[b] | is_covered[c]) == 0 && !slab_.reaches_into(p, q, r)) continue;
     faces.push_back({{p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r)}, f});
   }
   return faces;

@@ -12,6 +12,18 @@
 
 namespace meniscus {
 
+/// Where the faces are that a drop has on solids: the box of its colliding vertices, below their highest along the mean
+/// of the solid's normals. A face that does not reach into it meets none of them.
+struct ContactSlab {
+  Eigen::AlignedBox3d box;  ///< empty if no vertex is colliding
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  double top = 0;  ///< up . x, cm
+
+  bool reaches_into(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) const;
+};
+
+ContactSlab contact_slab(const Drop& drop);
+
 /// Where sheets of a drop's surface may be close together: all within one to two `reach` of a watched vertex
 /// (Drop::seam_watch), as cells of a grid.
 class WatchedRegion {
@@ -21,11 +33,17 @@ class WatchedRegion {
   /// All of space.
   WatchedRegion() : is_everywhere_(true) {}
 
-  bool empty() const { return !is_everywhere_ && cells_.empty(); }
-  bool covers(const Eigen::Vector3d& x) const { return is_everywhere_ || cells_.count(cell(x)) != 0; }
-  /// Any of its corners is in the region.
+  /// What reaches into the slab belongs to it, too.
+  void add(const ContactSlab& slab) { slab_ = slab; }
+
+  bool empty() const { return !is_everywhere_ && cells_.empty() && slab_.box.isEmpty(); }
+  /// Whether x is near a watched vertex.
+  bool covers(const Eigen::Vector3d& x) const {
+    return is_everywhere_ || (!cells_.empty() && cells_.count(cell(x)) != 0);
+  }
+  /// Any of its corners is, or it reaches into the slab.
   bool covers(const std::array<Eigen::Vector3d, 3>& face) const {
-    return covers(face[0]) || covers(face[1]) || covers(face[2]);
+    return covers(face[0]) || covers(face[1]) || covers(face[2]) || slab_.reaches_into(face[0], face[1], face[2]);
   }
   /// The faces that it covers, in the order of their indices.
   std::vector<FaceBox> faces_of(const Drop& drop) const;
@@ -42,6 +60,7 @@ class WatchedRegion {
   bool is_everywhere_ = false;
   double per_length_ = 0;
   std::unordered_set<Cell, Hash> cells_;
+  ContactSlab slab_;
 };
 
 /// The region near watched vertices that sheets may reach before it is looked at again.

@@ -67,6 +67,31 @@ TEST(ExternalForces, VerticesInsideASolidLandOnItWithoutNormalVelocity) {
   EXPECT_GT(colliding, 0u);
 }
 
+TEST(ExternalForces, ASourceStopsWhatComesFromItsFront) {
+  std::vector<Solid> solids{Solid::disc({0, 0, 0}, {0, 0, -1}, 0.4)};
+  solids[0].inflow = Inflow{10, {0, 0, 0}, 0.4, 0, 1};
+  const auto collide = [&](double height, double speed, double dt) {
+    Drop drop = drop_at({0, 0, height});
+    drop.velocities().colwise() = Vector3d(0, 0, speed);
+    const Eigen::Matrix3Xd start = drop.positions();
+    const std::size_t colliding = apply_external_forces(drop, solids, dt, dt, {}).colliding;
+    if (colliding == 0)
+      EXPECT_LT((drop.positions() - start - dt * drop.velocities()).norm(), 1e-14);
+    else
+      for (std::uint32_t i = 0; i < drop.num_rows(); ++i) EXPECT_LE(drop.positions()(2, i), 1e-15);
+    return colliding;
+  };
+  for (const double dt : {0.0, 1e-3}) {
+    EXPECT_GT(collide(-0.199, 1, dt), 0u);  // from below, where liquid comes out
+    for (const double height : {0.1, 0.199, 0.201, 0.3}) EXPECT_EQ(collide(height, -1, dt), 0u) << height;
+  }
+  EXPECT_GT(collide(-0.25, 200, 1e-3), 0u);  // however far it goes in one step
+
+  Drop inside = drop_at({0, 0, 0.19});
+  find_contact(inside, solids, 0, 1e-6);
+  EXPECT_FALSE(touches_solid(inside));
+}
+
 TEST(ExternalForces, TheContactLineIsWhereCollidingMeetsFree) {
   const std::vector<Solid> solids{Solid::plane({0, 0, 0}, {0, 0, 1})};
   Drop drop = drop_at({0, 0, 0.1});

@@ -30,7 +30,9 @@ TEST_P(FailedScenes, StaySoundAndLoseNothing) {
 INSTANTIATE_TEST_SUITE_P(Regressions, FailedScenes,
                          testing::Values("refinement_without_end", "top_falls_on_wetted_area", "speck_knots",
                                          "lift_adds_volume", "pressure_film_sinks", "source_fills_with_a_rush",
-                                         "speck_blows_up"),
+                                         "speck_blows_up", "film_comes_through_wetted_area",
+                                         "wet_faces_lie_on_each_other", "drop_meets_source_from_behind",
+                                         "offset_pushes_film_through"),
                          [](const auto& scene) { return scene.param; });
 
 }  // namespace

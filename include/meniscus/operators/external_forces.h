@@ -30,7 +30,8 @@ struct ExternalForcesReport {
 /// A vertex that was colliding and belongs to a wetted face stays on its solid: nothing can come
 /// between. It is the contact line that moves off, along the solid; the last vertices without a
 /// wetted face are free to leave. On a source (Solid::inflow) they stay where they are, the line on the
-/// disc's rim, with the velocity of what comes out.
+/// disc's rim, with the velocity of what comes out. A source stops liquid in front of it: what is or gets behind its
+/// disc from elsewhere passes.
 ///
 /// Reads and writes positions (cm), velocities (cm/s), contact state, normals and solids.
 /// A drop far from every solid, or no solids: no contact work. dt = 0 moves nothing.
@@ -39,7 +40,8 @@ ExternalForcesReport apply_external_forces(Drop& drop, const std::vector<Solid>&
                                            const ExternalForcesOptions& options);
 
 /// Marks the vertices that lie within `tolerance` (cm) of a solid, or inside it, as colliding, and
-/// all others as free; moves nothing. For drops that start on a solid.
+/// all others as free (what is behind the disc of a source is not inside it); moves nothing. For drops that start on a
+/// solid.
 void find_contact(Drop& drop, const std::vector<Solid>& solids, double time, double tolerance);
 
 }  // namespace meniscus

@@ -22,8 +22,8 @@ struct RemeshOptions {
   /// that cocircular quadrangles rest; further below where the mesh moves, or they flip to and fro.
   double flip_below = -1e-4;
   double max_flip_dihedral = 0.61;  ///< edges whose faces' normals differ by more are not flipped
-  /// Whether no operation may make the surface meet itself, anywhere; else that is seen to near watched vertices alone
-  /// (Drop::seam_watch).
+  /// Whether no operation may make the surface meet itself, anywhere; else that is seen to near watched vertices
+  /// (Drop::seam_watch) and on solids alone.
   bool guard_everywhere = false;
   std::size_t min_faces = 4;  ///< a mesh of so many faces is not made coarser
   double max_faces = 50e6;    ///< a band that needs more faces is refused

@@ -30,7 +30,7 @@ TEST_P(FailedScenes, StaySoundAndLoseNothing) {
 INSTANTIATE_TEST_SUITE_P(Regressions, FailedScenes,
                          testing::Values("refinement_without_end", "top_falls_on_wetted_area", "speck_knots",
                                          "lift_adds_volume", "pressure_film_sinks", "source_fills_with_a_rush",
-                                         "speck_blows_up"),
+                                         "speck_blows_up", "dewetting_lays_films_down"),
                          [](const auto& scene) { return scene.param; });
 
 }  // namespace

@@ -24,6 +24,10 @@ constexpr double viscosity_to_eta = 2.456;
 /// lowest mode: however short the substep is, the surface must not rush.
 constexpr double volume_gain = 0.5, shortest_volume_phase = 0.03;
 constexpr int most_solves = 8;
+/// A line that recedes meets friction of at most this share of sigma (1 - cos theta_r), the pull on it where the
+/// surface lies flat. With more it could not keep up with a drop that runs, and would draw out a film thinner than any
+/// mesh holds. A tenth of xi is left, for a line must not rush where hardly any liquid goes with it.
+constexpr double most_receding_friction = 0.25, least_friction = 0.1;
 
 double surface_length(const PressureSurface& surface) {
   return surface.air_area > 0 ? 3 * surface.volume / surface.air_area : 0;
@@ -41,6 +45,20 @@ void resize_for_solve(std::size_t n, PressureArrays& arrays) {
     array->resize(n);
   arrays.fixed.resize(n);
   arrays.blocked.assign(n, 0);
+}
+
+/// xi of a line vertex (g/(cm s)), less where it recedes too fast for its friction.
+double line_friction(const Drop& drop, const std::vector<Solid>& solids, std::uint32_t v,
+                     const PressureOptions& options, const PressureArrays& arrays) {
+  const double xi = options.contact_line_friction;
+  if (arrays.surface.role[v] != Role::line ||
+      arrays.status_before[v] != static_cast<std::uint8_t>(LineStatus::receding))
+    return xi;
+  const Solid& solid = solids[static_cast<std::size_t>(drop.contact_solid()[v])];
+  const double pull = options.liquid.surface_tension * (1 - std::cos(solid.receding_angle));
+  const double speed = std::abs(arrays.speed_old[v]) / arrays.surface.slant[v];
+  if (xi * speed <= most_receding_friction * pull) return xi;
+  return std::max(most_receding_friction * pull / speed, least_friction * xi);
 }
 
 }  // namespace
@@ -81,7 +99,8 @@ bool PressureStep::solve(double dt) {
   mass.multiply(arrays.speed_old, arrays.rhs_without_line, arrays.deformation);
   for (std::size_t v = 0; v < n; ++v) {
     arrays.rhs_without_line[v] += dt * surface.force[v];
-    arrays.friction[v] = dt * options_.contact_line_friction * surface.wet_gradient[v] / surface.slant[v];
+    const double xi = line_friction(drop_, solids_, static_cast<std::uint32_t>(v), options_, arrays);
+    arrays.friction[v] = dt * xi * surface.wet_gradient[v] / surface.slant[v];
   }
   mass.stiffening += damping;
   if (surface.in_contact) mass.friction = &arrays.friction;

@@ -191,7 +191,7 @@ void Simulation::verify(const StepReport& report, double target_volume_before) c
       throw SoundnessError(fmt::format("drop {} is unsound after step {}: {}", drop.id(), num_steps_, defect));
   }
   const double lost = target_volume_before + report.volume_added - target_volume();
-  if (!drops_.empty() && std::abs(lost) > 1e-9 * target_volume_before)
+  if (!drops_.empty() && std::abs(lost) > 1e-9 * (target_volume_before + report.volume_added))
     throw SoundnessError(fmt::format("step {} lost {} of {} cm^3", num_steps_, lost, target_volume_before));
 }
 

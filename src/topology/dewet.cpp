@@ -75,6 +75,17 @@ bool have_room(const RemeshState& state, HalfedgeIndex h, const Vector3d& x, con
   return wet_area(a, w, x, n) > thin * longest2 && wet_area(b, x, w, n) > thin * longest2;
 }
 
+/// Another face about the apex of h has two vertices on the solid: with the apex there, it would lie flat on the wetted
+/// area.
+bool has_other_film(const RemeshState& state, HalfedgeIndex h) {
+  const Ring ring = state.ring(state.apex(h));
+  int films = 0;
+  for (int k = 0; k < ring.degree; ++k)
+    films += state.colliding(VertexIndex(ring.neighbour[k])) &&
+             state.colliding(VertexIndex(ring.neighbour[k + 1 == ring.degree ? 0 : k + 1]));
+  return films > 1;
+}
+
 bool are_joined(const Mesh& mesh, VertexIndex v, VertexIndex w) { return mesh.halfedge(v, w).is_valid(); }
 
 /// The line moves from the edge h to its apex v: v comes down on the solid, and the film between, which lies flat on
@@ -88,7 +99,7 @@ bool try_dewet(RemeshState& state, HalfedgeIndex h) {
   if (v == w || are_joined(mesh, v, w)) return false;
   if (state.connectivity.degree(a) < 4 || state.connectivity.degree(b) < 4) return false;
   const Vector3d x = state.point(v) - height * n;
-  if (!have_room(state, h, x, n) || state.is_forbidden(x)) return false;
+  if (has_other_film(state, h) || !have_room(state, h, x, n) || state.is_forbidden(x)) return false;
   list_new_faces(state, h, x);
   if (state.would_meet_sheet({v}, {mesh.face(mesh.opposite(h))})) return false;
 

@@ -193,7 +193,10 @@ class TakeBack {
     is_back_[v] = 1;
     taken_.push_back(v);
     drop_.positions().col(v) = sound_.col(v);
-    if (!is_colliding(drop_.contact()[v])) drop_.velocities().col(v) = velocity_.at(sound_.col(v));
+    if (is_colliding(drop_.contact()[v]))
+      drop_.velocities().col(v) *= 0.5;  // else one that rushes into a fold does so again and again
+    else
+      drop_.velocities().col(v) = velocity_.at(sound_.col(v));
     drop_.seam_watch()[v] = std::max(drop_.seam_watch()[v], violent_watched_calls);
     finder_.move(v);
   }

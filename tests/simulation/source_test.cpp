@@ -55,6 +55,17 @@ TEST(SourceFeed, FlowsFromStartToStopOnly) {
   EXPECT_NEAR(added / (flow_of(scene.sources[0]) * 0.0202), 1, 1e-12);
 }
 
+/// Where nothing was before, rounding is of the order of what was added.
+TEST(SourceFeed, StartsFromNothingUnderTheJudge) {
+  Scene scene = tap(50);
+  scene.time_step = 1.0 / 480;
+  scene.sources[0].radius = 0.1;
+  Simulation simulation(scene);
+  simulation.set_verify(Verify::everything);
+  for (int n = 0; n < 4; ++n) EXPECT_NO_THROW(simulation.step());
+  EXPECT_EQ(simulation.drops().size(), 1u);
+}
+
 /// Runs a tap and checks at every step that the ledger adds up and that all is sound.
 void check_tap(double speed, double seconds) {
   Scene scene = tap(speed);

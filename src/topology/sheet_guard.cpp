@@ -44,8 +44,11 @@ bool is_clearly_beside(const SheetGuard::NewFace& s, const SheetGuard::NewFace& 
 }  // namespace
 
 SheetGuard::SheetGuard(const Drop& drop, WatchedRegion region, double cell)
-    : drop_(drop), region_(std::move(region)), cell_(cell) {
-  const std::vector<FaceBox> faces = region_.faces_of(drop);
+    : drop_(drop), region_(std::move(region)), cell_(cell) {}
+
+void SheetGuard::learn_faces() {
+  knows_faces_ = true;
+  const std::vector<FaceBox> faces = region_.faces_of(drop_);
   for (const FaceBox& face : faces) cell_ = std::max(cell_, face.box.sizes().maxCoeff() / most_cells_along);
   for (const FaceBox& face : faces) add_to_cells(face.face, face.box);
 }
@@ -70,6 +73,7 @@ SheetGuard::NewFace SheetGuard::face_at(std::uint32_t face) const {
 }
 
 void SheetGuard::add(std::uint32_t face) {
+  if (!knows_faces_) return;
   const NewFace known = face_at(face);
   if (region_.covers(known.points)) add_to_cells(face, box_of_points(known.points));
 }
@@ -103,9 +107,10 @@ bool SheetGuard::meet(const NewFace& s, const NewFace& t) const {
 }
 
 bool SheetGuard::would_meet(const std::vector<NewFace>& faces, const std::vector<std::uint32_t>& replaced,
-                            const std::vector<std::uint32_t>& removed) const {
+                            const std::vector<std::uint32_t>& removed) {
   for (std::size_t i = 0; i < faces.size(); ++i) {
     if (!region_.covers(faces[i].points)) continue;
+    if (!knows_faces_) learn_faces();
     const Eigen::AlignedBox3d box = box_of_points(faces[i].points);
     for (std::size_t j = 0; j < i; ++j)
       if (meet(faces[i], faces[j])) return true;

@@ -14,8 +14,8 @@
 namespace meniscus {
 
 /// Keeps edge operations from making a surface meet itself where two of its sheets are close together:
-/// near the seam of a merge. Exact; knows the faces that meet its region when it is made, and those that
-/// operations make from them.
+/// near the seam of a merge, and on solids. Exact; from the first operation that reaches into its region on it knows
+/// the faces that meet it, and those that operations make from them.
 class SheetGuard {
  public:
   /// A face that an operation is about to make.
@@ -30,7 +30,7 @@ class SheetGuard {
   /// Whether the new faces meet each other, or a face that stays: one that holds none of `replaced` vertices, or is
   /// not among the `removed` faces.
   bool would_meet(const std::vector<NewFace>& faces, const std::vector<std::uint32_t>& replaced,
-                  const std::vector<std::uint32_t>& removed) const;
+                  const std::vector<std::uint32_t>& removed);
 
   /// Whether a point is in the region.
   bool covers(const Eigen::Vector3d& x) const { return region_.covers(x); }
@@ -48,6 +48,7 @@ class SheetGuard {
   Cell cell_of(const Eigen::Vector3d& x) const;
   template <class Visit>
   void for_each_cell(const Eigen::AlignedBox3d& box, Visit visit) const;
+  void learn_faces();
   void add_to_cells(std::uint32_t face, const Eigen::AlignedBox3d& box);
   bool meet(const NewFace& s, const NewFace& t) const;
   NewFace face_at(std::uint32_t face) const;
@@ -55,6 +56,7 @@ class SheetGuard {
   const Drop& drop_;
   WatchedRegion region_;
   double cell_;
+  bool knows_faces_ = false;  // most calls of remeshing never ask
   std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> faces_;
   mutable std::vector<std::array<double, 3>> points_;  // of one test
 };

@@ -39,9 +39,10 @@ constexpr double largest_phase_correction = 2;
 /// By what factor tension has to be stronger for mode 2 of a ball to keep its frequency omega at the time step dt;
 /// phase = omega dt. Backward Euler has the flow of strength q = c dt^2/R^2 act on mode 2 as s = 4 q/(1 + 6 q), for the
 /// stiffness of a ball is 4 but the matrix L has 6, and turns the phase by atan(sqrt(s/(1 - s))): 4 q/(1 + 2 q) must be
-/// tan^2(phase).
+/// tan^2(phase). That has no solution for large phases: the factor stays at its bound up to a phase of 1 and falls from
+/// there, to 1 at sqrt(2), the longest that substeps leave (largest_phase_squared).
 double phase_correction(double phase) {
-  const double tangent = std::tan(std::min(phase, 0.25 * M_PI));  // beyond, the factor is above its bound
+  const double tangent = std::tan(std::min(phase, 0.25 * M_PI));
   const double squared = tangent * tangent;
   return std::min(largest_phase_correction, squared / (phase * phase * (1 - 0.5 * squared)));
 }

@@ -82,7 +82,10 @@ namespace {
 std::vector<Drop> change_topology(Drop drop, const Eigen::Matrix3Xd& before, const StepOptions& options,
                                   Remesher& remesher, StageClock& clock, StepReport& report, const char*& after) {
   after = "remeshing";
-  if (options.remesh) watch_faces(drop, drop.workspace().violent_faces);
+  if (options.remesh) {
+    watch_faces(drop, drop.workspace().violent_faces);
+    watch_bends(drop);
+  }
   if (options.remesh && may_fold(drop, merge_options(options))) {
     MergeReport merge;
     auto mended = mend_folds(drop, before, merge_options(options), remesher, merge);

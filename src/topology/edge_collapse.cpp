@@ -126,7 +126,7 @@ Refusal would_harm_star(const RemeshState& state, VertexIndex v, VertexIndex oth
     const double new_longest2 = std::max({rim2, xp2, (q - x).squaredNorm()});
     const bool was_folded = n_old.dot(normal) < 0, was_thin = was_folded || old_norm < thin * old_longest2;
     const double turn = was_folded ? n_new.dot(normal) : n_new.dot(n_old) / old_norm;  // cosine times new_norm
-    const double weight = becomes_flat ? state.options.band.wetted_weight : 1;
+    const double weight = becomes_flat ? state.wetted_weight(x, p, solid_normal, state.contact_normal(vp)) : 1;
     if (becomes_flat && would_not_face_solid(n_new, face_normal))
       refusal = Refusal::contact_line;
     else if (!(turn > bound * new_norm) && !(was_thin && turn >= 0))

@@ -74,7 +74,10 @@ Refusal try_flip(RemeshState& state, HalfedgeIndex h) {
   if (would_disturb_contact_line(state, h)) return Refusal::contact_line;
   if (state.is_feature(h)) return Refusal::feature;
   if (would_change_shape(state, h)) return Refusal::would_invert;
-  const double weight = state.inside_wetted_area(h) ? state.options.band.wetted_weight : 1;
+  const double weight =
+      state.inside_wetted_area(h)
+          ? state.wetted_weight(state.point(o), state.point(p), state.contact_normal(o), state.contact_normal(p))
+          : 1;
   const double length2_new = weight * weight * (state.point(o) - state.point(p)).squaredNorm();
   if (state.is_long(length2_new) || state.is_short(length2_new)) return Refusal::would_be_long;
   if (!state.scratch.forbidden.empty() && state.is_forbidden(0.5 * (state.point(a) + state.point(b))))

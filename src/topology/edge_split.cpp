@@ -72,8 +72,14 @@ double length2(const RemeshState& state, HalfedgeIndex h) {
 /// Where all count alike the longest side of a face passes.
 bool would_shorten(const RemeshState& state, HalfedgeIndex h, const Eigen::Vector3d& m) {
   constexpr double clearly_shorter = 0.95;
-  const double counted2 = state.squared_length(h), wetted = state.options.band.wetted_weight;
-  const double weight2 = state.is_wet_face(h) ? wetted * wetted : counted2 / length2(state, h);
+  const double counted2 = state.squared_length(h);
+  double weight2 = counted2 / length2(state, h);
+  if (state.is_wet_face(h)) {
+    const auto a = state.mesh.source(h), b = state.mesh.target(h), o = state.apex(h);
+    const Eigen::Vector3d normal = (state.contact_normal(a) + state.contact_normal(b)).stableNormalized();
+    const double wetted = state.wetted_weight(m, state.point(o), normal, state.contact_normal(o));
+    weight2 = wetted * wetted;
+  }
   return weight2 * (state.point(state.apex(h)) - m).squaredNorm() < clearly_shorter * clearly_shorter * counted2;
 }
 

@@ -46,15 +46,16 @@ HalfedgeIndex halfedge_from(const Mesh& mesh, FaceIndex f, std::uint32_t source)
   return h;
 }
 
-/// How many faces have an angle under 30 degrees, do not face the solid that they are on, or hardly, and lie on it
-/// without liquid between.
+/// How many faces have an angle under 30 degrees, do not face the solid that they are on, or hardly, lie on it without
+/// liquid between, and lie on a solid that bends.
 struct Found {
-  std::size_t sharp = 0, turned = 0, films = 0;
+  std::size_t sharp = 0, turned = 0, films = 0, bends = 0;
 
   Found& operator+=(const Found& other) {
     sharp += other.sharp;
     turned += other.turned;
     films += other.films;
+    bends += other.bends;
     return *this;
   }
 };
@@ -78,7 +79,8 @@ double least_long_edge2(const EdgeBand& band) {
 /// With no face turned over, both faces of an edge from inside the wetted area are wet.
 bool may_need_work(const RemeshState& state, std::uint32_t u, std::uint32_t v, double length2) {
   const Contact* contact = state.drop.contact();
-  if (state.has_turned_faces || (contact[u] != Contact::wetted && contact[v] != Contact::wetted)) return true;
+  if (state.has_turned_faces || state.has_bends || (contact[u] != Contact::wetted && contact[v] != Contact::wetted))
+    return true;
   const double weighted2 = state.options.band.wetted_weight * state.options.band.wetted_weight * length2;
   return state.is_long(weighted2) || state.is_short(weighted2);
 }
@@ -175,6 +177,9 @@ void scan(RemeshState& state) {
     const Eigen::Vector3d normal = (n.col(t[0]) + n.col(t[1]) + n.col(t[2])) / 3;
     return facing(x.col(t[0]), x.col(t[1]), x.col(t[2]), normal) < hardly_facing;
   };
+  const auto is_bent = [&](const std::array<std::uint32_t, 3>& t) {
+    return is_bend(n.col(t[0]), n.col(t[1])) || is_bend(n.col(t[1]), n.col(t[2])) || is_bend(n.col(t[2]), n.col(t[0]));
+  };
   // All faces are looked at on all threads; the few that need more are inspected in their order.
   std::vector<std::uint8_t>& marked = state.scratch.marked_faces;
   marked.resize(triangles.size());
@@ -188,6 +193,7 @@ void scan(RemeshState& state) {
       const int colliding = on_solid(t);
       part.sharp += sides.is_sharp();
       part.turned += colliding == 3 && is_turned(t);
+      part.bends += colliding == 3 && is_bent(t);
       part.films += colliding == 2 && is_film(state, FaceIndex(static_cast<std::uint32_t>(f)));
       const bool may_leave_band =
           colliding == 3 ? may_wet_face_leave_band(state, t, sides) : sides.least < low2 || sides.greatest > high2;
@@ -198,10 +204,11 @@ void scan(RemeshState& state) {
   state.has_sharp_angle = found.sharp > 0;
   state.has_turned_faces = found.turned > 0;
   state.has_films = found.films > 0;
+  state.has_bends = found.bends > 0;
   for (std::uint32_t f = 0; f < triangles.size(); ++f) {
     if (triangles[f][0] == Connectivity::removed) continue;
     const bool wet = on_solid(triangles[f]) == 3;
-    if (marked[f] != 0 || (wet && state.has_turned_faces))
+    if (marked[f] != 0 || (wet && (state.has_turned_faces || state.has_bends)))
       inspect_face(state, FaceIndex(f), sides_of(triangles[f]), wet);
   }
 }

@@ -59,10 +59,24 @@ double RemeshState::squared_length(HalfedgeIndex h) const {
   const double length2 = (point(mesh.target(h)) - point(mesh.source(h))).squaredNorm();
   double weight = 1;
   if (inside_wetted_area(h))
-    weight = options.band.wetted_weight;
+    weight = wetted_weight(h);
   else if (options.band.refinement > 1)
     weight = curvature_weight(h);
   return weight * weight * length2;
+}
+
+double RemeshState::wetted_weight(HalfedgeIndex h) const {
+  const auto a = mesh.source(h), b = mesh.target(h);
+  return wetted_weight(point(a), point(b), contact_normal(a), contact_normal(b));
+}
+
+double RemeshState::wetted_weight(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& normal_a,
+                                  const Eigen::Vector3d& normal_b) const {
+  const double least = options.band.wetted_weight;
+  if (!is_bend(normal_a, normal_b)) return least;
+  const double turn = (normal_b - normal_a).norm(), length = (b - a).norm();
+  const double middle = 0.5 * (options.band.edge_min + options.band.edge_max);
+  return length > 0 ? std::clamp(turn / length * middle / most_turn, least, 1.0) : 1;
 }
 
 double RemeshState::curvature_weight(HalfedgeIndex h) const {

@@ -72,6 +72,7 @@ struct RemeshState {
   bool has_contact = false;       ///< some vertex is colliding
   bool has_sharp_angle = false;   ///< some corner is under 30 degrees: smoothing has something to do
   bool has_films = false;         ///< somewhere next to the contact line the liquid is too thin to show
+  bool has_bends = false;         ///< some edge of a face of three colliding vertices has another wetted weight
   bool has_turned_faces = false;  ///< some face of three colliding vertices does not face its solid, or hardly
 
   Eigen::Vector3d point(VertexIndex v) const { return to_eigen(mesh.point(v)); }
@@ -103,6 +104,12 @@ struct RemeshState {
   bool is_contact_line(HalfedgeIndex h) const;
   /// Squared length as the band sees it: weighted inside the wetted area, and where the free surface curves.
   double squared_length(HalfedgeIndex h) const;
+  /// band.wetted_weight inside the wetted area, or more, up to 1, where the solid turns by more than a quarter of a
+  /// radian from one end of the edge to the other: there a long edge would lie far from the solid.
+  double wetted_weight(HalfedgeIndex h) const;
+  /// The same for an edge between two points that would be made, with the solid's normals there.
+  double wetted_weight(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& normal_a,
+                       const Eigen::Vector3d& normal_b) const;
   /// The factor, 1 to band.refinement, by which an edge in the middle of the band turns the normal by more than
   /// most_turn.
   double curvature_weight(HalfedgeIndex h) const;
@@ -141,6 +148,12 @@ double facing(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::V
 
 /// A face of three colliding vertices whose facing_solid is less is turned over, or nearly so.
 constexpr double hardly_facing = 0.01;
+
+/// Unit normals of a solid further apart than this turn too much for band.wetted_weight.
+inline bool is_bend(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  constexpr double flat = 0.0625;  // a quarter of a radian
+  return (a - b).squaredNorm() > flat;
+}
 
 /// Along an edge of the free surface the normal turns by no more than this (radians), as far as the band allows.
 constexpr double most_turn = 0.5;

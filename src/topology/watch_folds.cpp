@@ -14,6 +14,10 @@ using Eigen::Vector3d;
 /// Faces look at each other, or away from each other, if the cosine between their normals is below this.
 constexpr double opposite = -0.3;
 
+/// A solid bends under a face if it turns by more than 30 degrees between two of its corners: the face then lies so far
+/// from the solid that the surface beside the contact line may pass between them.
+constexpr double cosine_of_bend = 0.8660254037844387;
+
 Vector3d area_vector(const MeshView& mesh, const Triangle& t) {
   const Vector3d a = mesh.points.col(t[0]);
   return (Vector3d(mesh.points.col(t[1])) - a).cross(Vector3d(mesh.points.col(t[2])) - a);
@@ -68,6 +72,30 @@ void watch_faces(Drop& drop, const std::vector<std::uint8_t>& marked) {
   for (std::size_t f = 0; f < marked.size(); ++f)
     if (marked[f] != 0)
       for (const auto v : drop.connectivity().triangles()[f]) watch[v] = std::max(watch[v], violent_watched_calls);
+}
+
+void watch_bends(Drop& drop) {
+  const Contact* contact = drop.contact();
+  const ConstColumns n = std::as_const(drop).contact_normals();
+  const auto turns = [&](std::uint32_t a, std::uint32_t b) { return n.col(a).dot(n.col(b)) < cosine_of_bend; };
+  std::uint32_t first = 0;
+  const auto rows = static_cast<std::uint32_t>(drop.num_rows());
+  while (first < rows && !is_colliding(contact[first])) ++first;
+  const double half = std::sqrt(0.5 * (1 + cosine_of_bend));  // of all normals with the first one: most solids
+  const auto is_near_first = [&](std::uint32_t v) {
+    return !is_colliding(contact[v]) || n.col(first).dot(n.col(v)) > half;
+  };
+  std::uint32_t v = first;
+  while (v < rows && is_near_first(v)) ++v;
+  if (v >= rows) return;
+  std::uint8_t* const watch = drop.seam_watch();
+  for (const auto& [a, b, c] : drop.connectivity().triangles()) {
+    if (a == Connectivity::removed || !is_colliding(contact[a]) || !is_colliding(contact[b]) ||
+        !is_colliding(contact[c]))
+      continue;
+    if (turns(a, b) || turns(b, c) || turns(c, a))
+      for (const auto w : {a, b, c}) watch[w] = std::max(watch[w], violent_watched_calls);
+  }
 }
 
 bool may_fold(const Drop& drop, const MergeOptions& options) {

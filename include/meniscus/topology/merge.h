@@ -46,6 +46,10 @@ std::optional<std::vector<Drop>> merge_drops(const Drop& a, const Drop& b, const
 /// violent ones.
 void watch_faces(Drop& drop, const std::vector<std::uint8_t>& marked);
 
+/// Watches the vertices of faces under which a solid bends: between such a face and the solid there is room for the
+/// surface beside the contact line.
+void watch_bends(Drop& drop);
+
 /// Whether mend_folds has anything to look at: watched vertices, or a drop at all with options.self_merge.
 bool may_fold(const Drop& drop, const MergeOptions& options);
 

@@ -8,6 +8,7 @@
 #include "meniscus/io/write_file_atomically.h"
 #include "meniscus/io/write_mesh.h"
 #include "meniscus/scene/write_scene.h"
+#include "meniscus/simulation/check_frame.h"
 #include "meniscus/simulation/safe_time_step.h"
 #include "run_statistics.h"
 #include "writing_thread.h"
@@ -47,6 +48,18 @@ std::size_t num_triangles(const Simulation& simulation) {
   return triangles;
 }
 
+/// No frame outside of the safe region is written unless the judge finds it sound.
+void check_doubtful_frame(std::int64_t frame, const std::vector<Drop>& drops, bool volume_is_kept) {
+  try {
+    check_frame(drops, volume_is_kept);
+  } catch (const SoundnessError& error) {
+    throw SoundnessError(
+        fmt::format("frame {}: {}; the frames before it are sound. The time step is outside of the "
+                    "region where this level held: see the warning at the start",
+                    frame, error.what()));
+  }
+}
+
 /// One run, from its first frame to run.json.
 class Evolution {
  public:
@@ -76,7 +89,7 @@ class Evolution {
 
   /// Says before the first step if the time step is outside of the region that was mapped as safe.
   void say_whether_safe() const {
-    if (plan_.scene.time_step <= safe_time_step_) return;
+    if (is_safe()) return;
     console_.say(
         safe_time_step_ > 0
             ? fmt::format("warning: a time_step of {:.3g} s is outside of the region where this level held; "
@@ -130,6 +143,8 @@ class Evolution {
   }
 
  private:
+  bool is_safe() const { return plan_.scene.time_step <= safe_time_step_; }
+
   /// The keys that "auto" stands for, as a scene would give them.
   Json chosen_keys() const {
     const Json scene = Json::parse(resolved_scene(with_choice(plan_.scene, simulation_.choice())));
@@ -207,7 +222,10 @@ class Evolution {
   }
 
   void write_frame(FrameWriter& writer, WritingThread& behind, std::int64_t frame) const {
-    behind.run([&writer, frame, time = simulation_.time(), drops = simulation_.drops()] {
+    const bool is_doubtful = !is_safe() && !plan_.verify;
+    const bool volume_is_kept = simulation_.options().volume_correction != VolumeCorrectionMethod::none;
+    behind.run([&writer, frame, is_doubtful, volume_is_kept, time = simulation_.time(), drops = simulation_.drops()] {
+      if (is_doubtful) check_doubtful_frame(frame, drops, volume_is_kept);
       writer.write(static_cast<int>(frame), time, drops);
     });
   }

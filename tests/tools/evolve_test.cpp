@@ -114,6 +114,19 @@ TEST_F(Evolve, VolumeThatGoesAmissIsSaidOnce) {
   EXPECT_FALSE(has(tool("evolve splash.json -o kept").err, "than they ought to"));
 }
 
+TEST_F(Evolve, OutsideOfTheSafeRegionNoUnsoundFrameIsWritten) {
+  const Outcome outcome = tool("evolve '" MENISCUS_DATA_DIR "/regressions/paper_meets_itself.json' -o out");
+  EXPECT_EQ(outcome.code, 5);
+  EXPECT_TRUE(has(outcome.err, "outside of the region")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "the surface meets itself; the frames before it are sound")) << outcome.err;
+  EXPECT_EQ(report("out/run.json")["status"], "failed");
+  std::string frames;
+  for (const std::string& name : names("out"))
+    if (name.rfind("frame_", 0) == 0) frames += "out/" + name + " ";
+  const Outcome check = tool("check " + frames);
+  EXPECT_EQ(check.code, 0) << check.out;
+}
+
 TEST_F(Evolve, FramesAreTheSameOnOneThreadAndTwo) {
   ASSERT_EQ(tool("evolve splash.json -o one --threads 1").code, 0);
   ASSERT_EQ(tool("evolve splash.json -o two --threads 2").code, 0);

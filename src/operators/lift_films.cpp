@@ -62,9 +62,10 @@ void stop(Drop& drop, std::uint32_t v, const Vector3d& n, const Vector3d& solid_
   u.col(v) -= std::min(0.0, (u.col(v) - solid_velocity).dot(n)) * n;
 }
 
-/// Puts a vertex that is below p, on a solid of normal n, above it, and stops it.
-void lift(Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n, const Vector3d& solid_velocity) {
-  Columns x = drop.positions();
+/// How high above p, on a solid of normal n, the faces about a vertex want it (cm): a share of its edges, and what
+/// they cut below their vertices where the solid curves away; `least` of that is known.
+double film_height(const Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n, double least) {
+  const ConstColumns x = drop.positions();
   const Ring ring = drop.connectivity().ring(v);
   double length = 0, lowest = 0;
   for (int k = 0; k < ring.degree; ++k) {
@@ -72,10 +73,73 @@ void lift(Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n, con
     length += edge.norm() / ring.degree;
     lowest = std::min(lowest, edge.dot(n));
   }
-  // Where the solid curves away, the film's faces cut that much below its vertices.
-  const double sagitta = std::min(-0.25 * lowest, largest_sagitta * length);
-  x.col(v) = p + (film_thickness * length + sagitta) * n;
+  return film_thickness * length + std::max(least, std::min(-0.25 * lowest, largest_sagitta * length));
+}
+
+/// Puts a vertex at a height over p, on a solid of normal n, and stops it.
+void lift(Drop& drop, std::uint32_t v, double height, const Vector3d& p, const Vector3d& n,
+          const Vector3d& solid_velocity) {
+  drop.positions().col(v) = p + height * n;
   stop(drop, v, n, solid_velocity);
+}
+
+/// Within this distance of the solids that it touches (cm) a drop's film may be lower than its faces need: nought on a
+/// plane, a share of the wetted edges where normals differ.
+double reach_of_sagittas(const Drop& drop) {
+  constexpr double share = 0.1, same = 1e-6;
+  const ConstColumns x = drop.positions(), n = drop.contact_normals();
+  const Contact* contact = drop.contact();
+  const auto rows = static_cast<std::uint32_t>(drop.num_rows());
+  std::uint32_t first = 0;
+  while (first < rows && !is_colliding(contact[first])) ++first;
+  std::uint32_t other = first;
+  while (other < rows && (!is_colliding(contact[other]) || (n.col(other) - n.col(first)).squaredNorm() <= same))
+    ++other;
+  if (other >= rows) return 0;
+  double length = 0;
+  int edges = 0;
+  for (std::uint32_t v = first; v < rows; ++v) {
+    if (!is_colliding(contact[v])) continue;
+    const Ring ring = drop.connectivity().ring(v);
+    for (int k = 0; k < ring.degree; ++k) length += (x.col(ring.neighbour[k]) - x.col(v)).norm();
+    edges += ring.degree;
+  }
+  return share * length / std::max(edges, 1);
+}
+
+/// A free vertex near a solid.
+struct NearVertex {
+  std::uint32_t vertex;
+  SolidContact below;
+};
+
+std::vector<NearVertex> vertices_near(const Drop& drop, const Solid& solid, double time, double reach) {
+  std::vector<NearVertex> near;
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
+    if (drop.connectivity().degree(v) == 0 || is_colliding(drop.contact()[v])) continue;
+    const Vector3d x = drop.positions().col(v);
+    if (!solid.is_near(x, time, reach)) continue;
+    const SolidContact below = solid.query(x, time);
+    if (below.distance <= reach) near.push_back({v, below});
+  }
+  return near;
+}
+
+/// How high vertices must be for the solid not to come through their edges, one a row (cm): over an edge of length l
+/// the solid rises by l^2/(8 R), which is a quarter of what the edge's end lies below the tangent plane of its start.
+std::vector<double> least_heights(const Drop& drop, const std::vector<NearVertex>& near) {
+  std::vector<double> height(drop.num_rows(), -1), least(drop.num_rows(), 0);
+  for (const auto& [v, below] : near) height[v] = std::max(0.0, below.distance);
+  for (const auto& [v, below] : near) {
+    const Ring ring = drop.connectivity().ring(v);
+    for (int k = 0; k < ring.degree; ++k) {
+      const std::uint32_t w = ring.neighbour[k];
+      if (height[w] < 0) continue;
+      const double rise = 0.25 * (height[w] - (drop.positions().col(w) - below.point).dot(below.normal));
+      least[v] = std::max(least[v], 2 * rise - height[w]);
+    }
+  }
+  return least;
 }
 
 }  // namespace
@@ -83,21 +147,24 @@ void lift(Drop& drop, std::uint32_t v, const Vector3d& p, const Vector3d& n, con
 void lift_films(Drop& drop, const std::vector<Solid>& solids, double time, double low) {
   if (!touches_solid(drop)) return;
   const Eigen::AlignedBox3d box = bounding_box(drop);
+  const double reach_of_curved = reach_of_sagittas(drop), reach = std::max(low, reach_of_curved);
   std::optional<WettedFaces> wetted;
   for (const Solid& solid : solids) {
-    if (solid.inflow || !solid.is_near(box, time, low)) continue;
-    for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
-      if (drop.connectivity().degree(v) == 0 || is_colliding(drop.contact()[v])) continue;
-      const Vector3d x = drop.positions().col(v);
-      if (!solid.is_near(x, time, low)) continue;
-      const SolidContact below = solid.query(x, time);
-      if (below.distance > low) continue;
+    if (solid.inflow || !solid.is_near(box, time, reach)) continue;
+    const std::vector<NearVertex> near = vertices_near(drop, solid, time, reach);
+    std::vector<double> least;
+    if (reach_of_curved > 0 && !near.empty()) least = least_heights(drop, near);
+    for (const auto& [v, below] : near) {
+      const double needed = least.empty() ? 0 : least[v];
+      if (below.distance > std::max(low, needed)) continue;
       if (!wetted) wetted.emplace(drop, [&](std::uint32_t w) { return is_colliding(drop.contact()[w]); });
       if (!wetted->cover(below.point, below.normal, v)) continue;
-      if (below.distance > 0)
-        stop(drop, v, below.normal, solid.velocity(time));
+      const Vector3d solid_velocity = solid.velocity(time);
+      if (below.distance > needed)
+        stop(drop, v, below.normal, solid_velocity);
       else
-        lift(drop, v, below.point, below.normal, solid.velocity(time));
+        lift(drop, v, film_height(drop, v, below.point, below.normal, needed), below.point, below.normal,
+             solid_velocity);
     }
   }
 }
@@ -113,7 +180,7 @@ void lift_landed(Drop& drop, const std::vector<Solid>& solids, double time, cons
     if (below.inflow) continue;
     const Vector3d p = drop.positions().col(v), n = drop.contact_normals().col(v);
     if (!wetted.cover(p, n, v)) continue;
-    lift(drop, v, p, n, below.velocity(time));
+    lift(drop, v, film_height(drop, v, p, n, 0), p, n, below.velocity(time));
     drop.contact()[v] = Contact::free;
     solid = -1;
   }

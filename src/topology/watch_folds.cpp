@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "boolean_parts.h"
 #include "face_grid.h"
+#include "meniscus/state/contact_line.h"
 #include "merge_parts.h"
 
 #include <algorithm>
@@ -17,6 +18,9 @@ constexpr double opposite = -0.3;
 /// A solid bends under a face if it turns by more than 30 degrees between two of its corners: the face then lies so far
 /// from the solid that the surface beside the contact line may pass between them.
 constexpr double cosine_of_bend = 0.8660254037844387;
+
+/// A drop with so many times the area of the ball of its volume is no ball, however small.
+constexpr double deformed = 1.3;
 
 Vector3d area_vector(const MeshView& mesh, const Triangle& t) {
   const Vector3d a = mesh.points.col(t[0]);
@@ -96,6 +100,18 @@ void watch_bends(Drop& drop) {
     if (turns(a, b) || turns(b, c) || turns(c, a))
       for (const auto w : {a, b, c}) watch[w] = std::max(watch[w], violent_watched_calls);
   }
+}
+
+void watch_thin_sheets(Drop& drop, double area, double edge_max) {
+  const double volume = drop.target_volume(), ball_area = std::cbrt(36 * M_PI * volume * volume);
+  const auto is_thin_sheet = [&](double sides) {
+    return sides > deformed * ball_area && 2 * volume < edge_max * sides;
+  };
+  // What lies on a solid and what covers it bound no sheet with air on both sides.
+  if (!is_thin_sheet(area) || !is_thin_sheet(area - 2 * wetted_area(drop))) return;
+  std::uint8_t* const watch = drop.seam_watch();
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
+    if (!is_colliding(drop.contact()[v])) watch[v] = std::max(watch[v], violent_watched_calls);
 }
 
 bool may_fold(const Drop& drop, const MergeOptions& options) {

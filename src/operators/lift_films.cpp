@@ -145,6 +145,8 @@ std::vector<double> least_heights(const Drop& drop, const std::vector<NearVertex
 }  // namespace
 
 void lift_films(Drop& drop, const std::vector<Solid>& solids, double time, double low) {
+  std::vector<std::uint8_t>& films = drop.workspace().films;
+  films.clear();
   if (!touches_solid(drop)) return;
   const Eigen::AlignedBox3d box = bounding_box(drop);
   const double reach_of_curved = reach_of_sagittas(drop), reach = std::max(low, reach_of_curved);
@@ -159,6 +161,8 @@ void lift_films(Drop& drop, const std::vector<Solid>& solids, double time, doubl
       if (below.distance > std::max(low, needed)) continue;
       if (!wetted) wetted.emplace(drop, [&](std::uint32_t w) { return is_colliding(drop.contact()[w]); });
       if (!wetted->cover(below.point, below.normal, v)) continue;
+      if (films.empty()) films.assign(drop.num_rows(), 0);
+      films[v] = 1;
       const Vector3d solid_velocity = solid.velocity(time);
       if (below.distance > needed)
         stop(drop, v, below.normal, solid_velocity);

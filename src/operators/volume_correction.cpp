@@ -97,21 +97,24 @@ struct Flow {
   }
 };
 
-/// Offsets the surface by d = (V_target - V)/A until the volume fits.
+/// Offsets the surface by d = (V_target - V)/A until the volume fits. Films have none to give: what is pushed through
+/// the wetted area is lifted again, and the volume would never fit.
 void correct_globally(Drop& drop, const SurfaceGeometry& geometry, double dt, double limit,
                       VolumeCorrectionReport& report) {
+  const std::vector<std::uint8_t>& films = drop.workspace().films;
+  const auto moves = [&](std::uint32_t i) { return is_off_solids(drop, i) && (films.empty() || films[i] == 0); };
   const Flow flow = sum_over_chunks(drop.num_rows(), Flow{}, [&](std::size_t begin, std::size_t end) {
     Flow part;
     const ConstColumns last = drop.displacements();
     for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
-      if (!is_off_solids(drop, i)) continue;
+      if (!moves(i)) continue;
       part.area += geometry.area_vector(i).dot(geometry.normal(i)) / 3;
       part.volume += last.col(i).dot(geometry.area_vector(i)) / 3;
     }
     return part;
   });
   const double area = flow.area, target = drop.target_volume(), expected = area > 0 ? -flow.volume / area : 0;
-  const VolumeOffset moved = offset_to_volume(drop, geometry, area, target, expected - limit, expected + limit);
+  const VolumeOffset moved = offset_to_volume(drop, geometry, area, target, expected - limit, expected + limit, films);
   report.relative_error_before = moved.error_before / target;
   report.relative_error = moved.error / target;
   report.offset = moved.offset;
@@ -121,7 +124,7 @@ void correct_globally(Drop& drop, const SurfaceGeometry& geometry, double dt, do
   const double speed = report.offset / dt;
   for_each_chunk(drop.num_rows(), [&](std::size_t begin, std::size_t end) {
     for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
-      if (is_off_solids(drop, i)) v.col(i) += speed * geometry.normal(i);
+      if (moves(i)) v.col(i) += speed * geometry.normal(i);
   });
 }
 

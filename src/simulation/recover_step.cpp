@@ -16,6 +16,10 @@ constexpr double most_turned = 0.05;        // share of the surface
 constexpr double most_growth = 2;           // of the surface
 constexpr double most_volume_change = 0.5;  // of the target, away from it
 constexpr int most_halvings = 6;
+/// A substep that stretches a drop so much that the correction has to take more than this share of its volume is too
+/// long for what the drop does; after so many halvings it has to do.
+constexpr double most_corrected = 0.2;
+constexpr int most_rough_halvings = 3;
 
 /// Mending and remeshing a drop of so many faces that is not crumpled changes its volume by far less than this.
 constexpr std::size_t least_faces = 200;
@@ -29,9 +33,11 @@ StepOptions at_half_step(StepOptions options) {
 
 /// One try: why it failed, or "".
 std::string attempt(Drop& drop, double time, double dt, const StepOptions& options, StepReport& report,
-                    const Deform& deform, const KeptState& kept) {
+                    const Deform& deform, const KeptState& kept, bool may_be_rough) {
   try {
-    deform(drop, time, dt, options, report);
+    const double correction = deform(drop, time, dt, options, report);
+    if (!may_be_rough && std::abs(correction) > most_corrected)
+      return fmt::format("the volume went off by {:.0f} % before its correction", 100 * correction);
   } catch (const NumericsError& error) {
     return error.what();
   }
@@ -42,7 +48,9 @@ std::string attempt(Drop& drop, double time, double dt, const StepOptions& optio
 void recurse(Drop& drop, double time, double dt, const StepOptions& options, StepReport& report, const Deform& deform,
              const KeptState& kept, int halvings) {
   StepReport tried = report;
-  const std::string wrong = attempt(drop, time, dt, options, tried, deform, kept);
+  // What a source adds is no stretching.
+  const bool may_be_rough = options.level == Level::paper || halvings >= most_rough_halvings || drop.inflow() != 0;
+  const std::string wrong = attempt(drop, time, dt, options, tried, deform, kept, may_be_rough);
   if (wrong.empty()) {
     report = tried;
     return;

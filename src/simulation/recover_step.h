@@ -24,13 +24,17 @@ std::string blow_up(Drop& drop, const Eigen::Matrix3Xd& before);
 /// if `pieces`, what came of a drop of volume_before (cm^3), hold another volume; small drops and drops on solids pass.
 void check_not_crumpled(const std::vector<Drop>& pieces, double volume_before, int id);
 
-/// The operators of a substep: moves the drop from time - dt to time.
-using Deform = std::function<void(Drop& drop, double time, double dt, const StepOptions& options, StepReport& report)>;
+/// The operators of a substep: moves the drop from time - dt to time. Returns by what share of its target the volume
+/// was off before it was corrected.
+using Deform =
+    std::function<double(Drop& drop, double time, double dt, const StepOptions& options, StepReport& report)>;
 
 /// Runs `deform`; if the drop blew up or it threw NumericsError, takes the drop back and goes the same way in two
-/// halves, each likewise, down to 1/64, and counts that in report.recoveries. At Level::paper gamma and alpha are per
-/// step: halves get half of them, so that the acceleration stays. What the drop was at the start is then in
-/// workspace().kept, and the faces that are violent since then are marked. Throws NumericsError when 1/64 fails too.
+/// halves, each likewise, down to 1/64, and counts that in report.recoveries. So it does, down to 1/8, if the
+/// correction had to take or give a fifth of the volume: the substep is too long for how the drop stretches. At
+/// Level::paper gamma and alpha are per step: halves get half of them, so that the acceleration stays. What the drop
+/// was at the start is then in workspace().kept, and the faces that are violent since then are marked. Throws
+/// NumericsError when 1/64 fails too.
 void deform_or_recover(Drop& drop, double time, double dt, const StepOptions& options, StepReport& report,
                        const Deform& deform);
 

@@ -78,6 +78,17 @@ MergeOptions merge_options(const StepOptions& step) {
 
 namespace {
 
+/// What operators and remeshing leave of a drop's volume is given back here if it is more than this share; what is less
+/// is left to the next volume correction.
+constexpr double least_volume_error = 0.005;
+
+void give_back_volume(Drop& drop, const StepOptions& options) {
+  if (options.level == Level::paper || options.volume_correction == VolumeCorrectionMethod::none) return;
+  const double target = drop.target_volume();
+  if (drop.num_rows() == 0 || std::abs(drop.volume() - target) < least_volume_error * target) return;
+  restore_volume(drop, target, options.band.edge_max);
+}
+
 /// remesh_and_split, before specks are looked at. `after` says for what a piece may be found unsound.
 std::vector<Drop> change_topology(Drop drop, const Eigen::Matrix3Xd& before, const StepOptions& options,
                                   Remesher& remesher, StageClock& clock, StepReport& report, const char*& after) {
@@ -99,7 +110,10 @@ std::vector<Drop> change_topology(Drop drop, const Eigen::Matrix3Xd& before, con
   }
   std::vector<Drop> pieces;
   RemeshReport remeshed;
-  if (options.remesh) remeshed = remesher.remesh(drop, remesh_options(options));
+  if (options.remesh) {
+    remeshed = remesher.remesh(drop, remesh_options(options));
+    if (remeshed.cuts == 0) give_back_volume(drop, options);
+  }
   if (!remeshed.changed()) report.skip(Stage::remesh);
   report.edge_operations += remeshed.splits + remeshed.collapses + remeshed.flips + remeshed.lifts;
   report.cuts += remeshed.cuts;
@@ -108,7 +122,10 @@ std::vector<Drop> change_topology(Drop drop, const Eigen::Matrix3Xd& before, con
     SplitReport split;
     pieces = split_components(std::move(drop), split, least_volume(options.band));
     report.deleted += split.deleted + split.deleted_empty;
-    for (Drop& piece : pieces) stiffen_speck(piece, options.band);
+    for (Drop& piece : pieces) {
+      stiffen_speck(piece, options.band);
+      give_back_volume(piece, options);
+    }
     after = "a split";
   } else {
     pieces.push_back(std::move(drop));

@@ -197,10 +197,15 @@ int num_substeps(Drop& drop, const std::vector<Solid>& solids, double time, doub
   return static_cast<int>(std::ceil(std::min(substeps, static_cast<double>(most_substeps))));
 }
 
-/// The operators of one substep, in the order of the paper's Figure 1.
-void deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt, const StepOptions& options,
-            StepReport& report) {
+/// Films lower than this (in lengths of edge_min) come down no further and have no volume to give.
+constexpr double low_film = 0.05;
+
+/// The operators of one substep, in the order of the paper's Figure 1. Returns by what share of the target the volume
+/// was off before its correction.
+double deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt, const StepOptions& options,
+              StepReport& report) {
   StageClock clock(options.clock, report);
+  drop.workspace().films.clear();
   const bool jet = is_jet(drop, solids, time, options);
   const ExternalForcesReport forces =
       apply_external_forces(drop, solids, time, dt, external_forces_options(drop, jet, options));
@@ -235,7 +240,7 @@ void deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt
   clock.done(Stage::damping);
 
   // What lifting films adds is taken from elsewhere, and what sank in by that is lifted for good.
-  if (forces.colliding > 0) lift_films(drop, solids, time);
+  if (forces.colliding > 0) lift_films(drop, solids, time, low_film * options.band.edge_min);
   const VolumeCorrectionReport volume = correct_volume(drop, geometry, dt, volume_options(options, drop));
   report.limited_volume += volume.limited;
   if (!std::isnan(volume.relative_error))
@@ -245,8 +250,9 @@ void deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt
                                     drop.id(), 1 + volume.relative_error));
   clock.done(Stage::volume_correction);
 
-  if (forces.colliding > 0) lift_films(drop, solids, time);
+  if (forces.colliding > 0) lift_films(drop, solids, time, low_film * options.band.edge_min);
   if (options.volume_correction == VolumeCorrectionMethod::none) report.skip(Stage::volume_correction);
+  return volume.relative_error_before;
 }
 
 std::vector<Drop> one_piece(Drop drop) {
@@ -259,7 +265,7 @@ std::vector<Drop> one_piece(Drop drop) {
 std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                           const StepOptions& options, Remesher& remesher, StepReport& report) {
   const auto move = [&](Drop& moving, double to, double step, const StepOptions& at, StepReport& sum) {
-    deform(moving, solids, to, step, at, sum);
+    return deform(moving, solids, to, step, at, sum);
   };
   try {
     deform_or_recover(drop, time, dt, options, report, move);

@@ -25,7 +25,7 @@ double free_area(const Drop& drop, const SurfaceGeometry& geometry) {
 }
 
 VolumeOffset offset_to_volume(Drop& drop, const SurfaceGeometry& geometry, double area, double volume, double least,
-                              double most) {
+                              double most, const std::vector<std::uint8_t>& held) {
   Columns x = drop.positions();
   const auto n = static_cast<std::uint32_t>(drop.num_rows());
   VolumeOffset report;
@@ -40,7 +40,7 @@ VolumeOffset offset_to_volume(Drop& drop, const SurfaceGeometry& geometry, doubl
     report.offset = total;
     for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
       for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
-        if (is_off_solids(drop, i)) x.col(i) += d * geometry.normal(i);
+        if (is_off_solids(drop, i) && (held.empty() || held[i] == 0)) x.col(i) += d * geometry.normal(i);
     });
     const double error_old = report.error;
     report.error = drop.volume() - volume;

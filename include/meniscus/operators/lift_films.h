@@ -16,8 +16,8 @@ namespace meniscus {
 ///
 /// Reads contact state and solids at `time` (s); writes positions (cm) of free vertices,
 /// and takes from their velocities (cm/s) what would go into the solid. Vertices up to `low` (cm) above the
-/// wetted area lose that speed, too. Sources (Solid::inflow) are no solids here; a drop that touches nothing is left as
-/// it is.
+/// wetted area lose that speed, too. Both are marked in workspace().films. Sources (Solid::inflow) are no solids here;
+/// a drop that touches nothing is left as it is.
 void lift_films(Drop& drop, const std::vector<Solid>& solids, double time, double low = 0);
 
 /// The same for vertices that a step has just put on a solid: those of `landed` that came down through the drop's own

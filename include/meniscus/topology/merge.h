@@ -42,6 +42,10 @@ struct MergeReport {
 std::optional<std::vector<Drop>> merge_drops(const Drop& a, const Drop& b, const MergeOptions& options,
                                              Remesher& remesher, MergeReport& report);
 
+/// Moves the free vertices along their normals until the drop encloses `volume` (cm^3) again, after operations on edges
+/// of at most edge_max (cm); where faces near a watched vertex or a solid would then meet, vertices stay.
+void restore_volume(Drop& drop, double volume, double edge_max);
+
 /// Watches (Drop::seam_watch) the vertices of marked faces: one entry a face, or none at all; find_face_changes marks
 /// violent ones.
 void watch_faces(Drop& drop, const std::vector<std::uint8_t>& marked);

@@ -33,6 +33,10 @@ Eigen::Matrix3Xd carried_along(const Drop& drop, const Eigen::Matrix3Xd& before,
 /// What a folded surface encloses tells of the drop's place and momentum if it is off by no more than this.
 constexpr double largest_volume_error = 0.2;
 
+/// If a drop that was taken back in part holds this much more or less than it ought to, the rest is taken back, too:
+/// else it would go further off with every substep.
+constexpr double most_left_off = 0.05;
+
 enum class Folds { between_neighbours, all };
 
 /// Moves a vertex halfway to the mean of its neighbours, or less, if its faces then meet nothing.
@@ -176,6 +180,14 @@ class TakeBack {
   }
   const std::vector<std::uint32_t>& taken() const { return taken_; }
 
+  /// The whole drop, whatever was done with what was taken back since.
+  void take_all() {
+    for (std::uint32_t v = 0; v < is_back_.size(); ++v) {
+      take(v);
+      if (is_back_[v] != 0) drop_.positions().col(v) = sound_.col(v);
+    }
+  }
+
  private:
   std::vector<FoldFinder::Pair> of_kind(Folds folds) {
     std::vector<FoldFinder::Pair> meeting = finder_.meeting();
@@ -253,6 +265,7 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& 
       offset_around(drop, taken, ledger.volume, region);
       restore_ledger(drop, ledger, false);
     }
+    if (!taken.empty() && std::abs(drop.volume() / drop.target_volume() - 1) > most_left_off) take_back->take_all();
     return std::nullopt;
   }
   ++report.folds;

@@ -112,7 +112,8 @@ std::vector<Drop> change_topology(Drop drop, const Eigen::Matrix3Xd& before, con
   RemeshReport remeshed;
   if (options.remesh) {
     remeshed = remesher.remesh(drop, remesh_options(options));
-    if (remeshed.cuts == 0) give_back_volume(drop, options);
+    const bool may_be_off = remeshed.changed() || !drop.workspace().films.empty() || options.level == Level::pressure;
+    if (may_be_off && remeshed.cuts == 0) give_back_volume(drop, options);
   }
   if (!remeshed.changed()) report.skip(Stage::remesh);
   report.edge_operations += remeshed.splits + remeshed.collapses + remeshed.flips + remeshed.lifts;

@@ -180,6 +180,7 @@ bool Solid::is_near(const Eigen::AlignedBox3d& box, double time, double margin) 
 bool Solid::is_near(const Vector3d& x, double time, double margin) const {
   const Vector3d local = x - offset(time);
   if (const auto* plane = std::get_if<Plane>(&shape_)) return plane->normal.dot(local - plane->point) <= margin;
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape_)) return mesh->distance->is_near(local, margin);
   return bounds_.exteriorDistance(local) <= margin;
 }
 

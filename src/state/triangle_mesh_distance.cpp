@@ -3,6 +3,7 @@
 
 #include "meniscus/core/error.h"
 #include "meniscus/geometry/inspect.h"
+#include "near_triangles.h"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
@@ -12,6 +13,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace meniscus {
@@ -82,6 +84,75 @@ struct TriangleMeshDistance::Parts {
     tree.insert(tree_triangles.begin(), tree_triangles.end());
     tree.build();
     tree.accelerate_distance_queries();
+    add_near_triangles();
+  }
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+  ~Parts() = default;
+
+  void add_near_triangles() {
+    std::vector<NearTriangles::Candidate> balls;
+    double edges = 0;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const auto p = corners(t);
+      const Vector3d center = (p[0] + p[1] + p[2]) / 3;
+      double radius = 0;
+      for (const auto& x : p) radius = std::max(radius, (x - center).norm());
+      balls.push_back({static_cast<std::uint32_t>(t), center, radius * (1 + 1e-12)});
+      edges += (p[1] - p[0]).norm();
+    }
+    near = std::make_unique<const NearTriangles>(
+        box, std::move(balls), edges / static_cast<double>(triangles.size()),
+        [this](const Vector3d& x) { return contact(x, nearest_in_tree(x)).distance; },
+        [this](const Vector3d& x, double distance, std::vector<std::uint32_t>& found) {
+          std::vector<TreeTriangles::const_iterator> all;
+          tree.all_intersected_primitives(CGAL::Bbox_3(x[0] - distance, x[1] - distance, x[2] - distance,
+                                                       x[0] + distance, x[1] + distance, x[2] + distance),
+                                          std::back_inserter(all));
+          for (const auto& t : all) found.push_back(static_cast<std::uint32_t>(t - tree_triangles.begin()));
+        },
+        [this](const Vector3d& x, std::uint32_t t) { return (nearest_on_triangle(corners(t), x).point - x).norm(); });
+  }
+
+  /// The nearest triangle to x, and the point on it.
+  struct Nearest {
+    std::size_t triangle;
+    TrianglePoint on_it;
+  };
+
+  Nearest nearest_in_tree(const Vector3d& x) const {
+    const auto found = tree.closest_point_and_primitive(tree_point(x)).second;
+    const auto t = static_cast<std::size_t>(found - tree_triangles.begin());
+    return {t, nearest_on_triangle(corners(t), x)};
+  }
+
+  Nearest nearest(const Vector3d& x) const {
+    const NearTriangles::Cell* cell = near->at(x);
+    if (cell == nullptr || cell->candidates.empty()) return nearest_in_tree(x);
+    Nearest best{0, {Vector3d::Zero(), on_face}};
+    double least2 = std::numeric_limits<double>::infinity(), least = least2;
+    for (const auto& [t, center, radius] : cell->candidates) {
+      const double apart = least + radius;
+      if ((x - center).squaredNorm() >= apart * apart) continue;
+      const TrianglePoint candidate = nearest_on_triangle(corners(t), x);
+      const double distance2 = (x - candidate.point).squaredNorm();
+      if (distance2 >= least2) continue;
+      least2 = distance2;
+      least = std::sqrt(distance2);
+      best = {t, candidate};
+    }
+    return best;
+  }
+
+  SolidContact contact(const Vector3d& x, const Nearest& nearest) const {
+    const Vector3d& pseudonormal = normals[nearest.triangle][static_cast<std::size_t>(nearest.on_it.feature)];
+    const Vector3d away = x - nearest.on_it.point;
+    const double distance = away.norm();
+    const double side = away.dot(pseudonormal) < 0 ? -1 : 1;
+    // At corners and sides the gradient is the direction itself, unless it is but rounding.
+    const bool is_reliable = distance > 1e-9 * (x.cwiseAbs().maxCoeff() + box.sizes().maxCoeff());
+    const bool use_direction = nearest.on_it.feature != on_face && is_reliable;
+    return {side * distance, nearest.on_it.point, use_direction ? Vector3d(side / distance * away) : pseudonormal};
   }
 
   std::array<Vector3d, 3> corners(std::size_t t) const {
@@ -121,6 +192,7 @@ struct TriangleMeshDistance::Parts {
   Eigen::AlignedBox3d box;
   TreeTriangles tree_triangles;
   Tree tree;
+  std::unique_ptr<const NearTriangles> near;
 };
 
 TriangleMeshDistance::TriangleMeshDistance(const MeshData& data) {
@@ -132,18 +204,12 @@ TriangleMeshDistance::~TriangleMeshDistance() = default;
 
 const Eigen::AlignedBox3d& TriangleMeshDistance::bounds() const { return parts_->box; }
 
-SolidContact TriangleMeshDistance::query(const Vector3d& x) const {
-  const auto found = parts_->tree.closest_point_and_primitive(tree_point(x)).second;
-  const auto t = static_cast<std::size_t>(found - parts_->tree_triangles.begin());
-  const TrianglePoint nearest = nearest_on_triangle(parts_->corners(t), x);
-  const Vector3d& pseudonormal = parts_->normals[t][nearest.feature];
-  const Vector3d away = x - nearest.point;
-  const double distance = away.norm();
-  const double side = away.dot(pseudonormal) < 0 ? -1 : 1;
-  // At corners and sides the gradient is the direction itself, unless it is but rounding.
-  const bool is_reliable = distance > 1e-9 * (x.cwiseAbs().maxCoeff() + parts_->box.sizes().maxCoeff());
-  const bool use_direction = nearest.feature != on_face && is_reliable;
-  return {side * distance, nearest.point, use_direction ? Vector3d(side / distance * away) : pseudonormal};
+SolidContact TriangleMeshDistance::query(const Vector3d& x) const { return parts_->contact(x, parts_->nearest(x)); }
+
+bool TriangleMeshDistance::is_near(const Vector3d& x, double margin) const {
+  if (parts_->box.exteriorDistance(x) > margin) return false;
+  const NearTriangles::Cell* cell = parts_->near->at(x);
+  return cell == nullptr || cell->clearance <= margin;
 }
 
 }  // namespace meniscus

@@ -166,6 +166,17 @@ RC_GTEST_PROP(Solid, MeshNormalIsTheGradient, ()) {
   check_contact(mesh, any_point());
 }
 
+/// Near the surface a list of triangles is asked, beyond a tree: the same distance, and nothing near is passed over.
+RC_GTEST_PROP(Solid, WhatIsNearAMeshIsNotPassedOver, ()) {
+  static const Solid mesh = Solid::mesh(to_mesh_data(make_torus(origin, 1.5, 0.6, 0.2)));
+  static const double sagitta = 0.2 * 0.2 / (2 * 0.6);
+  const Vector3d x = any_point();
+  const double exact = std::hypot(std::hypot(x.x(), x.y()) - 1.5, x.z()) - 0.6;
+  const double found = mesh.query(x, 0).distance;
+  RC_ASSERT(std::abs(found - exact) <= sagitta);  // faces lie inside of the tube and outside of the hole
+  for (const double margin : {0.0, 0.05, 0.3}) RC_ASSERT(mesh.is_near(x, 0, margin) || found > margin);
+}
+
 TEST(Solid, MeshVerticesLieOnItsSurface) {
   const MeshData data = to_mesh_data(make_torus(origin, 1.5, 0.6, 0.3));
   const Solid mesh = Solid::mesh(data);

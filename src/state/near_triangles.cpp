@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double cell_in_edges = 0.75, margin_in_cells = 2;
-constexpr double most_cells = 4e6;
+constexpr double cell_in_edges = 1, margin_in_cells = 2;
+constexpr double most_cells = 1e6;
 
 }  // namespace
 

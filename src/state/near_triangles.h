@@ -31,7 +31,7 @@ class NearTriangles {
   /// The distance of a point to the surface (cm), negative inside.
   using Nearest = std::function<double(const Eigen::Vector3d& x)>;
 
-  /// `balls`: one a triangle. Cells are a little shorter than edges, and as many as memory allows.
+  /// `balls`: one a triangle. Cells are as long as edges, or longer where a million would not do.
   NearTriangles(const Eigen::AlignedBox3d& box, std::vector<Candidate> balls, double edge, Nearest nearest, Find find,
                 Distance distance);
   ~NearTriangles();

@@ -180,8 +180,14 @@ class TakeBack {
   }
   const std::vector<std::uint32_t>& taken() const { return taken_; }
 
-  /// The whole drop, whatever was done with what was taken back since.
+  /// The whole drop, whatever was done with what was taken back since, if that brings its volume nearer to the target.
   void take_all() {
+    const double now = drop_.volume(), target = drop_.target_volume();
+    const Eigen::Matrix3Xd left = drop_.positions();
+    drop_.positions() = sound_;
+    const double sound = drop_.volume();
+    drop_.positions() = left;
+    if (std::abs(sound - target) >= std::abs(now - target)) return;
     for (std::uint32_t v = 0; v < is_back_.size(); ++v) {
       take(v);
       if (is_back_[v] != 0) drop_.positions().col(v) = sound_.col(v);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/operators/lift_films.h"
 
+#include "meniscus/state/contact_line.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -86,20 +88,13 @@ void lift(Drop& drop, std::uint32_t v, double height, const Vector3d& p, const V
 /// Within this distance of the solids that it touches (cm) a drop's film may be lower than its faces need: nought on a
 /// plane, a share of the wetted edges where normals differ.
 double reach_of_sagittas(const Drop& drop) {
-  constexpr double share = 0.1, same = 1e-6;
-  const ConstColumns x = drop.positions(), n = drop.contact_normals();
-  const Contact* contact = drop.contact();
-  const auto rows = static_cast<std::uint32_t>(drop.num_rows());
-  std::uint32_t first = 0;
-  while (first < rows && !is_colliding(contact[first])) ++first;
-  std::uint32_t other = first;
-  while (other < rows && (!is_colliding(contact[other]) || (n.col(other) - n.col(first)).squaredNorm() <= same))
-    ++other;
-  if (other >= rows) return 0;
+  constexpr double share = 0.1, same = 1e-3;
+  if (!contact_normals_differ(drop, same)) return 0;
+  const ConstColumns x = drop.positions();
   double length = 0;
   int edges = 0;
-  for (std::uint32_t v = first; v < rows; ++v) {
-    if (!is_colliding(contact[v])) continue;
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
+    if (!is_colliding(drop.contact()[v])) continue;
     const Ring ring = drop.connectivity().ring(v);
     for (int k = 0; k < ring.degree; ++k) length += (x.col(ring.neighbour[k]) - x.col(v)).norm();
     edges += ring.degree;

@@ -15,12 +15,17 @@ constexpr double most_volume_error = 0.2;
 
 }  // namespace
 
+std::string unsoundness(const Drop& drop) {
+  std::string defect = judge::defect(drop);
+  if (defect.empty() && !drop.velocities().allFinite()) defect = "a velocity is not finite";
+  return defect;
+}
+
 void check_frame(const std::vector<Drop>& drops, bool volume_is_kept) {
   double volume = 0, target = 0;
   for (const Drop& drop : drops) {
-    std::string defect = judge::defect(drop);
-    if (defect.empty() && !drop.velocities().allFinite()) defect = "a velocity is not finite";
-    if (!defect.empty()) throw SoundnessError(fmt::format("drop {} is unsound: {}", drop.id(), defect));
+    if (const std::string defect = unsoundness(drop); !defect.empty())
+      throw SoundnessError(fmt::format("drop {} is unsound: {}", drop.id(), defect));
     volume += drop.volume();
     target += drop.target_volume();
   }

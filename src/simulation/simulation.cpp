@@ -4,7 +4,7 @@
 #include "meniscus/core/error.h"
 #include "meniscus/operators/external_forces.h"
 #include "meniscus/simulation/approaching.h"
-#include "meniscus/state/judge.h"
+#include "meniscus/simulation/check_frame.h"
 #include "sleep.h"
 #include "step_parts.h"
 
@@ -185,9 +185,7 @@ void Simulation::check_contacts() const {
 
 void Simulation::verify(const StepReport& report, double target_volume_before) const {
   for (const Drop& drop : drops_) {
-    std::string defect = judge::defect(drop);
-    if (defect.empty() && !drop.velocities().allFinite()) defect = "a velocity is not finite";
-    if (!defect.empty())
+    if (const std::string defect = unsoundness(drop); !defect.empty())
       throw SoundnessError(fmt::format("drop {} is unsound after step {}: {}", drop.id(), num_steps_, defect));
   }
   const double lost = target_volume_before + report.volume_added - target_volume();

@@ -28,6 +28,17 @@ double stiffness_of(const Vector3d& opposite_edge, double area) {
 
 }  // namespace
 
+bool contact_normals_differ(const Drop& drop, double distance) {
+  const Contact* contact = drop.contact();
+  const ConstColumns n = drop.contact_normals();
+  const auto rows = static_cast<std::uint32_t>(drop.num_rows());
+  std::uint32_t first = 0;
+  while (first < rows && !is_colliding(contact[first])) ++first;
+  for (std::uint32_t v = first; v < rows; ++v)
+    if (is_colliding(contact[v]) && (n.col(v) - n.col(first)).squaredNorm() > distance * distance) return true;
+  return false;
+}
+
 void mark_contact_line(Drop& drop) {
   Contact* contact = drop.contact();
   for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {

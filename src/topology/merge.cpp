@@ -197,8 +197,7 @@ void give_back(std::vector<Drop>& pieces, const Ledger& ledger, const MergeOptio
   const std::vector<Drop> start = pieces;
   restore_ledger(pieces, ledger);
   const auto meets_itself = [&](const Drop& piece) {
-    WatchedRegion region = watched_region(piece, options.remesh.band.edge_max);
-    region.add(contact_slab(piece));
+    const WatchedRegion region = guarded_region(piece, options.remesh.band.edge_max);
     return !region.empty() && meet_each_other(piece, region.faces_of(piece));
   };
   if (std::none_of(pieces.begin(), pieces.end(), meets_itself)) return;

@@ -74,9 +74,7 @@ void offset_around(Drop& drop, std::vector<std::uint32_t> held, double volume, c
 }
 
 void restore_volume(Drop& drop, double volume, double edge_max) {
-  WatchedRegion region = watched_region(drop, edge_max);
-  region.add(contact_slab(drop));
-  offset_around(drop, {}, volume, region);
+  offset_around(drop, {}, volume, guarded_region(drop, edge_max));
 }
 
 }  // namespace meniscus

@@ -271,8 +271,7 @@ RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOpt
   const bool rests = scratch.splits.empty() && scratch.collapses.empty() && scratch.flips.empty() &&
                      !state.has_turned_faces && !state.has_films;
   if (rests && (options.smoothing == 0 || !state.has_sharp_angle)) return state.report;
-  WatchedRegion region = options.guard_everywhere ? WatchedRegion() : watched_region(drop, options.band.edge_max);
-  if (state.has_contact) region.add(contact_slab(drop));
+  WatchedRegion region = options.guard_everywhere ? WatchedRegion() : guarded_region(drop, options.band.edge_max);
   if (!region.empty()) scratch.guard.emplace(drop, std::move(region), options.band.edge_max);
   run_passes(state);
   scratch.guard.reset();

@@ -79,19 +79,11 @@ void watch_faces(Drop& drop, const std::vector<std::uint8_t>& marked) {
 }
 
 void watch_bends(Drop& drop) {
+  const double half_bend = std::sqrt(2 - std::sqrt(2 * (1 + cosine_of_bend)));  // the chord of half the angle
+  if (!contact_normals_differ(drop, half_bend)) return;
   const Contact* contact = drop.contact();
   const ConstColumns n = std::as_const(drop).contact_normals();
   const auto turns = [&](std::uint32_t a, std::uint32_t b) { return n.col(a).dot(n.col(b)) < cosine_of_bend; };
-  std::uint32_t first = 0;
-  const auto rows = static_cast<std::uint32_t>(drop.num_rows());
-  while (first < rows && !is_colliding(contact[first])) ++first;
-  const double half = std::sqrt(0.5 * (1 + cosine_of_bend));  // of all normals with the first one: most solids
-  const auto is_near_first = [&](std::uint32_t v) {
-    return !is_colliding(contact[v]) || n.col(first).dot(n.col(v)) > half;
-  };
-  std::uint32_t v = first;
-  while (v < rows && is_near_first(v)) ++v;
-  if (v >= rows) return;
   std::uint8_t* const watch = drop.seam_watch();
   for (const auto& [a, b, c] : drop.connectivity().triangles()) {
     if (a == Connectivity::removed || !is_colliding(contact[a]) || !is_colliding(contact[b]) ||

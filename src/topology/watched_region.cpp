@@ -84,4 +84,10 @@ WatchedRegion watched_region(const Drop& drop, double edge_max) {
   return {drop, reach_in_edges * edge_max};
 }
 
+WatchedRegion guarded_region(const Drop& drop, double edge_max) {
+  WatchedRegion region = watched_region(drop, edge_max);
+  region.add(contact_slab(drop));
+  return region;
+}
+
 }  // namespace meniscus

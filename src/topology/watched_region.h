@@ -66,4 +66,7 @@ class WatchedRegion {
 /// The region near watched vertices that sheets may reach before it is looked at again.
 WatchedRegion watched_region(const Drop& drop, double edge_max);
 
+/// The same, and where the drop lies on solids: there films are close to the wetted area.
+WatchedRegion guarded_region(const Drop& drop, double edge_max);
+
 }  // namespace meniscus

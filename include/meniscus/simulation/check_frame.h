@@ -3,9 +3,13 @@
 
 #include "meniscus/state/drop.h"
 
+#include <string>
 #include <vector>
 
 namespace meniscus {
+
+/// What the judge finds wrong with a drop (state/judge.h), a velocity that is not finite included, or "".
+std::string unsoundness(const Drop& drop);
 
 /// Throws SoundnessError if a frame of these drops would be garbage: the judge finds one unsound (it meets itself,
 /// say), a velocity is not finite, or, with `volume_is_kept`, all drops together hold 20 % more or less than their

@@ -34,6 +34,10 @@ std::optional<ContactLineVertex> contact_line_vertex(const Drop& drop, std::uint
 /// nothing without a contact line.
 std::optional<double> mean_contact_angle(const Drop& drop);
 
+/// Whether some contact normal is further than `distance` (0 to 2) from the first: if not, no two are further apart
+/// than twice that. False without contact.
+bool contact_normals_differ(const Drop& drop, double distance);
+
 /// The area of the faces that lie on solids: all three vertices collide and the face looks into the solid (cm^2).
 double wetted_area(const Drop& drop);
 

@@ -21,9 +21,9 @@ struct VolumeOffset {
 double free_area(const Drop& drop, const SurfaceGeometry& geometry);
 
 /// Offsets the surface off solids along the normals of `geometry` by d = (V_wanted - V)/A, by secants, until the
-/// volume fits to 1e-12; d stays within [least, most] (cm). `area` is the first A: free_area. Vertices `held` (one a row,
-/// or empty: none) stay. Global volume correction, Section 4.4 of the paper. Writes positions only. Does nothing if the
-/// area is not positive.
+/// volume fits to 1e-12; d stays within [least, most] (cm). `area` is the first A: free_area. Vertices `held` (one a
+/// row, or empty: none) stay. Global volume correction, Section 4.4 of the paper. Writes positions only. Does nothing
+/// if the area is not positive.
 VolumeOffset offset_to_volume(Drop& drop, const SurfaceGeometry& geometry, double area, double volume, double least,
                               double most, const std::vector<std::uint8_t>& held = {});
 

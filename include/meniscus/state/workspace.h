@@ -44,7 +44,7 @@ struct Workspace {
   std::vector<double> scalars, more_scalars;
   std::vector<std::uint8_t> fixed;
   std::vector<std::uint8_t> films;  ///< by vertex, of the last lift_films: 1 in a film too thin to show; empty if none
-  KeptState kept;                            ///< at the start of the substep
+  KeptState kept;                   ///< at the start of the substep
   std::vector<std::uint8_t> violent_faces;   ///< by face, of the last FaceChanges
   std::shared_ptr<PressureArrays> pressure;  ///< made at first use
 };

@@ -54,8 +54,8 @@ void watch_faces(Drop& drop, const std::vector<std::uint8_t>& marked);
 /// surface beside the contact line.
 void watch_bends(Drop& drop);
 
-/// Watches all free vertices of a drop that is a sheet with air on both sides, thinner than edge_max (cm): its two sides
-/// may pass through each other with nothing violent in it. `area`: that of the surface (cm^2).
+/// Watches all free vertices of a drop that is a sheet with air on both sides, thinner than edge_max (cm): its two
+/// sides may pass through each other with nothing violent in it. `area`: that of the surface (cm^2).
 void watch_thin_sheets(Drop& drop, double area, double edge_max);
 
 /// Whether mend_folds has anything to look at: watched vertices, or a drop at all with options.self_merge.

@@ -83,16 +83,19 @@ class Check {
     const std::uint32_t h = arrays_.face_halfedge[f];
     require(sides == 3 && is_halfedge(h) && at(h).face == f, "face", f);
   }
-  /// The halfedges that point to a vertex form one fan.
+  /// The halfedges that point to a vertex form one fan and come from a vertex each.
   void vertex(std::size_t v, std::uint32_t incoming) const {
     const std::uint32_t first = arrays_.vertex_halfedge[v];
     require(is_halfedge(first) && at(first).target == v, "vertex", v);
-    std::uint32_t turned = 0, h = first;
+    Indices neighbours;
+    std::uint32_t h = first;
     do {
       h = at(h).next ^ 1u;
-      ++turned;
-    } while (h != first && turned <= incoming);
-    require(turned == incoming && turned >= 3, "vertex", v);
+      neighbours.push_back(at(h ^ 1u).target);
+    } while (h != first && neighbours.size() <= incoming);
+    require(neighbours.size() == incoming && incoming >= 3, "vertex", v);
+    std::sort(neighbours.begin(), neighbours.end());
+    require(std::adjacent_find(neighbours.begin(), neighbours.end()) == neighbours.end(), "vertex", v);
   }
 
   const MeshArrays& arrays_;

@@ -6,8 +6,8 @@
 #include <CGAL/boost/graph/helpers.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace meniscus {
 namespace {
@@ -52,6 +52,10 @@ Drop Drop::restored(Mesh mesh, const std::vector<std::uint32_t>& ring_starts) {
   Drop drop;
   drop.mesh_ = std::move(mesh);
   drop.bind();
+  std::vector<std::string> maps = drop.mesh_.properties<VertexIndex>();
+  std::sort(maps.begin(), maps.end());
+  if (const auto twice = std::adjacent_find(maps.begin(), maps.end()); twice != maps.end())
+    throw GeometryError(fmt::format("vertex map {} is of another type than a drop's", *twice));
   drop.connectivity_.rebuild(drop.mesh_);
   for (const auto v : drop.mesh_.vertices()) drop.connectivity_.start_ring_at(v, ring_starts[v]);
   return drop;

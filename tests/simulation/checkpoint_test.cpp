@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/core/error.h"
+#include "meniscus/core/mesh_arrays.h"
 #include "meniscus/frames/checkpoint_archive.h"
 #include "meniscus/frames/checkpoint_file.h"
 #include "meniscus/scene/read_scene.h"
@@ -133,8 +134,45 @@ TEST(Checkpoint, MeshesThatAreNoneAreRefused) {
   refused("removed_faces", [](auto& drop) { drop["removed_faces"] = nlohmann::json::binary({0, 0, 0, 0}); });
   refused("maps", [](auto& drop) { drop["maps"][0]["type"] = "float"; });
   refused("maps", [](auto& drop) { drop["maps"][1]["values"].get_binary().resize(8); });
+  refused("maps", [](auto& drop) {
+    for (auto& map : drop["maps"])
+      if (map["name"] == "v:velocity") {
+        map["type"] = "float64";
+        map["values"].get_binary().resize(map["values"].get_binary().size() / 3);
+      }
+  });
   refused("id", [](auto& drop) { drop["id"] = std::int64_t{1} << 40; });
   refused("target_volume", [](auto& drop) { drop["target_volume"] = "much"; });
+  refused("rest_time", [](auto& drop) { drop["rest_time"] = std::nan(""); });
+}
+
+/// A tetrahedron 0 1 2 3 whose edge 0-1 is slit and filled with vertices 4 and 5: closed, one fan a vertex, a sphere by
+/// Euler's formula, but two edges join 0 and 1, and their rings name each other twice.
+TEST(Checkpoint, AMeshOfTwoEdgesBetweenTheSameVerticesIsRefused) {
+  struct Corner {
+    std::uint32_t from, edge;
+  };
+  const Corner faces[][3] = {{{0, 0}, {1, 2}, {2, 3}}, {{0, 4}, {3, 5}, {1, 1}},  {{1, 5}, {3, 6}, {2, 2}},
+                             {{0, 3}, {2, 6}, {3, 4}}, {{1, 0}, {0, 7}, {4, 8}},  {{0, 1}, {1, 9}, {5, 10}},
+                             {{0, 10}, {5, 11}, {4, 7}}, {{5, 9}, {1, 8}, {4, 11}}};
+  MeshArrays arrays;
+  arrays.vertex_halfedge.resize(6);
+  arrays.halfedges.resize(24);
+  std::vector<bool> used(24, false);
+  for (const auto& face : faces) {
+    std::uint32_t half[3];
+    for (int k = 0; k < 3; ++k) {
+      half[k] = 2 * face[k].edge + (used[2 * face[k].edge] ? 1 : 0);
+      used[half[k]] = true;
+    }
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t target = face[(k + 1) % 3].from;
+      arrays.halfedges[half[k]] = {target, static_cast<std::uint32_t>(arrays.face_halfedge.size()), half[(k + 1) % 3]};
+      arrays.vertex_halfedge[target] = half[k];
+    }
+    arrays.face_halfedge.push_back(half[0]);
+  }
+  EXPECT_THROW(to_mesh(arrays), GeometryError);
 }
 
 }  // namespace

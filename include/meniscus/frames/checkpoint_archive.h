@@ -103,6 +103,7 @@ class CheckpointReader {
     } else if constexpr (std::is_floating_point_v<T>) {
       if (!state.is_number_float()) checkpoint::fail(where, "is no number");
       value = state.template get<T>();
+      if (value != value) checkpoint::fail(where, "is no number");
     } else if constexpr (std::is_enum_v<T>) {
       value = static_cast<T>(checkpoint::integer_in(state, where, 0, 255));
     } else if constexpr (std::is_integral_v<T>) {

@@ -165,7 +165,7 @@ class Collider {
     const Vector3d solid_velocity = source.velocity(time_);
     const Vector3d was = x_.col(i) - (v_.col(i) - solid_velocity) * dt_;
     const SolidContact contact = source.query(was, time_);
-    x_.col(i) = before == Contact::line ? source.rim_point(was, time_) : contact.point;
+    x_.col(i) = before == Contact::line ? source.rim_point(was, time_, options_.longest_edge) : contact.point;
     v_.col(i) = solid_velocity + source.inflow->speed_at(time_) * contact.normal;
     n_.col(i) = contact.normal;
   }

@@ -128,11 +128,12 @@ void let_go(Drop& drop, const std::vector<Solid>& solids, const PressureOptions&
 }
 
 /// Vertices on solids, at `time`: those that went into one lie on it, those that left one are free.
-void find_contact_anew(Drop& drop, const std::vector<Solid>& solids, double time) {
+void find_contact_anew(Drop& drop, const std::vector<Solid>& solids, double time, double edge_max) {
   ExternalForcesOptions options;
   options.gravity.setZero();
   options.no_slip = false;
   options.touching_distance = touching_distance;
+  options.longest_edge = edge_max;
   apply_external_forces(drop, solids, time, 0, options);
 }
 
@@ -193,9 +194,13 @@ bool PressureStep::is_short_enough(double dt) const {
     for (std::uint32_t v = 0; v < surface.role.size(); ++v) {
       if (!is_on_surface(surface.role[v])) continue;
       const Vector3d end = motion.end(v);
-      if (!solid.is_near(end, time_ + dt, 0) || !(solid.query(end, time_ + dt).distance < -deepest)) continue;
-      const Vector3d start = drop_.positions().col(v);  // behind the disc of a source liquid passes
-      if (!(solid.inflow && solid.query(start, time_).distance < -deepest)) return false;
+      if (!solid.is_near(end, time_ + dt, 0)) continue;
+      const double at_end = solid.query(end, time_ + dt).distance;
+      if (!(at_end < -deepest)) continue;
+      const double at_start = solid.query(drop_.positions().col(v), time_).distance;
+      if (solid.inflow && at_start < -deepest) continue;  // behind the disc of a source liquid passes
+      // No substep is short enough for a vertex that was too deep before it.
+      if (std::min(at_start, 0.0) - at_end > 0.5 * deepest) return false;
     }
   }
   return true;
@@ -216,7 +221,7 @@ PressureReport PressureStep::move() {
   Columns x = drop_.positions();
   for (std::uint32_t v = 0; v < n; ++v) x.col(v) = arrays.shift[v];
   let_go(drop_, solids_, options_, arrays);
-  find_contact_anew(drop_, solids_, time_ + dt_);
+  find_contact_anew(drop_, solids_, time_ + dt_, options_.edge_max);
 
   drop_.workspace().geometry.compute(std::as_const(drop_).positions(), drop_.connectivity());
   even_out(drop_, options_, options_.smoothing, volume_offset(drop_, options_.edge_min, surface), arrays);

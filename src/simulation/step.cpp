@@ -96,6 +96,7 @@ ExternalForcesOptions external_forces_options(const Drop& drop, bool jet, const 
   options.gravity = gravity_is_pressure(drop, jet, step) ? Vector3d(Vector3d::Zero()) : step.gravity;
   options.friction_per_step = step.level == Level::paper;
   options.no_slip = step.level != Level::paper;
+  options.longest_edge = step.band.edge_max;
   return options;
 }
 

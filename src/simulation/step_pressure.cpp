@@ -26,6 +26,7 @@ PressureOptions pressure_options(const StepOptions& step) {
   options.gravity = step.gravity;
   options.liquid = step.liquid;
   options.edge_min = step.band.edge_min;
+  options.edge_max = step.band.edge_max;
   options.tolerance = std::max(step.solver.tolerance, least_tolerance);
   options.max_iterations = step.solver.max_iterations;
   if (!step.remesh) options.smoothing = 0;

@@ -252,13 +252,14 @@ SolidContact Solid::contact(const Disc& disc, const Vector3d& x) {
   return {distance, rim, (x - rim) / distance};
 }
 
-Vector3d Solid::rim_point(const Vector3d& x, double time) const {
+Vector3d Solid::rim_point(const Vector3d& x, double time, double edge) const {
   const Vector3d nearest = query(x, time).point;
   const auto* disc = std::get_if<Disc>(&shape_);
   if (!disc) return nearest;
   const Vector3d center = disc->center + offset(time), across = nearest - center;
-  const double r = across.norm();
-  return r > 2.0 / 3 * disc->radius ? Vector3d(center + disc->radius / r * across) : nearest;
+  const double r = across.norm(), R = disc->radius;
+  const double chord = R - std::sqrt(std::max(0.0, R * R - edge * edge));
+  return R - r < std::min(chord, R / 3) ? Vector3d(center + R / r * across) : nearest;
 }
 
 }  // namespace meniscus

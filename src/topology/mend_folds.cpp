@@ -68,7 +68,8 @@ void relax(Drop& drop, const std::vector<std::uint32_t>& vertices, const Watched
     if (!is_colliding(drop.contact()[v])) relax(drop, v, guard);
 }
 
-/// Some faces of a drop, and which of them meet each other elsewhere than in what they share.
+/// Some faces of a drop, and which of them meet each other elsewhere than in what they share. When vertices move, the
+/// faces at them belong to it, and those that these may then meet.
 class FoldFinder {
  public:
   using Pair = std::array<std::uint32_t, 2>;
@@ -93,8 +94,8 @@ class FoldFinder {
   void move(std::uint32_t v) {
     const Ring ring = drop_.connectivity().ring(v);
     for (int k = 0; k < ring.degree; ++k) {
-      const std::uint32_t place = place_[ring.corner[k] / 3];
-      if (place == none || is_waiting_[place] != 0) continue;
+      const std::uint32_t place = place_of(ring.corner[k] / 3);
+      if (is_waiting_[place] != 0) continue;
       is_waiting_[place] = has_moved_[place] = 1;
       waiting_.push_back(place);
     }
@@ -108,8 +109,24 @@ class FoldFinder {
  private:
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-  /// The grid knows faces where they were first; those that have moved since are in one of their own.
+  /// Of a face, which belongs to the list from then on; the grid does not know it.
+  std::uint32_t place_of(std::uint32_t face) {
+    if (place_[face] == none) {
+      place_[face] = static_cast<std::uint32_t>(faces_.size());
+      faces_.push_back({box_now(face), face});
+      has_moved_.push_back(1);
+      is_waiting_.push_back(0);
+    }
+    return place_[face];
+  }
+  void add_faces_near_waiting() {
+    Eigen::AlignedBox3d box;
+    for (const std::uint32_t place : waiting_) box.extend(box_now(faces_[place].face));
+    for (const FaceBox& near : faces_in(view_of(drop_), box)) place_of(near.face);
+  }
+  /// The grid knows faces where they were first; those that have moved since, or are new, are in one of their own.
   void look_again() {
+    add_faces_near_waiting();
     const MeshView mesh = view_of(drop_);
     const auto waits = [&](std::uint32_t face) { return is_waiting_[place_[face]] != 0; };
     meeting_.erase(
@@ -143,10 +160,10 @@ class FoldFinder {
   }
 
   const Drop& drop_;
-  const std::vector<FaceBox> faces_;
+  std::vector<FaceBox> faces_;
   const FaceGrid grid_;
   std::vector<std::uint32_t> place_;  // of a face in the list
-  std::vector<std::uint8_t> has_moved_, is_waiting_;
+  std::vector<std::uint8_t> has_moved_, is_waiting_;  // has_moved_: or is not in the grid
   std::vector<std::uint32_t> waiting_;  // places of faces that have moved since the last look
   std::vector<Pair> meeting_;
 };
@@ -264,7 +281,10 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& 
   const std::vector<std::uint32_t> taken = take_back ? take_back->taken() : std::vector<std::uint32_t>();
   report.taken_back += taken.size();
   if (!result.ok() || result.outcome != BooleanOutcome::crossing) {
-    if (taken.empty()) count_down_watch(drop, options.remesh.band.edge_max);
+    if (taken.empty())
+      count_down_watch(drop, options.remesh.band.edge_max);
+    else if (!options.self_merge)
+      region = guarded_region(drop, options.remesh.band.edge_max);  // it reaches where they are now
     relax(drop, taken, region, options.remesh.band.edge_max);
     const bool is_measurable = std::abs(ledger.volume / drop.target_volume() - 1) < largest_volume_error;
     if (!taken.empty() && is_measurable) {

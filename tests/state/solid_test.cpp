@@ -281,8 +281,9 @@ TEST(Solid, ADiscHoldsLiquidOnOneSide) {
   EXPECT_NEAR(disc.query({1.2, 2.1, 3.1}, 0).distance, -0.1, 1e-15);  // behind: inside
   EXPECT_GT(disc.query({1.2, 2.1, 4}, 0).distance, 0);                // far behind: not
   EXPECT_NEAR(disc.query({1.8, 2, 3.4}, 0).distance, 0.5, 1e-15);     // 3-4-5 from the rim
-  EXPECT_NEAR((disc.rim_point({1.4, 2, 3}, 0) - Vector3d(1.5, 2, 3)).norm(), 0, 1e-15);
-  EXPECT_EQ(disc.rim_point({1.1, 2, 3}, 0), Vector3d(1.1, 2, 3));
+  EXPECT_NEAR((disc.rim_point({1.4, 2, 3}, 0, 1) - Vector3d(1.5, 2, 3)).norm(), 0, 1e-15);
+  EXPECT_EQ(disc.rim_point({1.1, 2, 3}, 0, 1), Vector3d(1.1, 2, 3));
+  EXPECT_EQ(disc.rim_point({1.4, 2, 3}, 0, 0.1), Vector3d(1.4, 2, 3)) << "an island, not the middle of an edge";
 }
 
 TEST(Solid, IsNearRejects) {

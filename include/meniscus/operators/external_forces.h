@@ -4,6 +4,7 @@
 #include "meniscus/state/drop.h"
 #include "meniscus/state/solid.h"
 
+#include <limits>
 #include <vector>
 
 namespace meniscus {
@@ -16,6 +17,7 @@ struct ExternalForcesOptions {
   /// Whether vertices inside the wetted area stay where they are on the solid (no slip).
   bool no_slip = true;
   double touching_distance = 0;  ///< cm: vertices this near to a solid are on it
+  double longest_edge = std::numeric_limits<double>::infinity();  ///< cm: for Solid::rim_point
 };
 
 struct ExternalForcesReport {

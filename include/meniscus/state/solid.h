@@ -87,9 +87,10 @@ class Solid {
   /// Its offset from where its shape says (cm).
   Eigen::Vector3d offset(double time) const;
 
-  /// Where the contact line of a source is held: the point of the disc's rim on the side of x if x is in its
-  /// outer third, else (and for any other shape) the nearest point.
-  Eigen::Vector3d rim_point(const Eigen::Vector3d& x, double time) const;
+  /// Where the contact line of a source is held: the point of the disc's rim on the side of x if x is no further from
+  /// the rim than the middle of a chord of two edges (cm) and in the disc's outer third, else (and for any other shape)
+  /// the nearest point.
+  Eigen::Vector3d rim_point(const Eigen::Vector3d& x, double time, double edge) const;
 
   bool is_plane() const { return std::holds_alternative<Plane>(shape_); }
 

@@ -89,9 +89,25 @@ void give_back_volume(Drop& drop, const StepOptions& options) {
   restore_volume(drop, target, options.band.edge_max);
 }
 
+/// A drop on several solids is held by the one that most of its vertices lie on, of equals the first.
+LastSound last_sound(const Drop& drop, const Eigen::Matrix3Xd& positions, const std::vector<Solid>& solids, double time,
+                     double dt) {
+  LastSound last{positions};
+  std::vector<std::size_t> count(solids.size(), 0);
+  for (std::size_t v = 0; v < drop.num_rows(); ++v)
+    if (is_colliding(drop.contact()[v])) ++count[static_cast<std::size_t>(drop.contact_solid()[v])];
+  const auto most = std::max_element(count.begin(), count.end());
+  if (most == count.end() || *most == 0) return last;
+  const Solid& solid = solids[static_cast<std::size_t>(most - count.begin())];
+  last.solid_moved = solid.offset(time) - solid.offset(time - dt);
+  last.solid_velocity = solid.velocity(time);
+  return last;
+}
+
 /// remesh_and_split, before specks are looked at. `after` says for what a piece may be found unsound.
-std::vector<Drop> change_topology(Drop drop, const Eigen::Matrix3Xd& before, const StepOptions& options,
-                                  Remesher& remesher, StageClock& clock, StepReport& report, const char*& after) {
+std::vector<Drop> change_topology(Drop drop, const Eigen::Matrix3Xd& before, const std::vector<Solid>& solids,
+                                  double time, double dt, const StepOptions& options, Remesher& remesher,
+                                  StageClock& clock, StepReport& report, const char*& after) {
   after = "remeshing";
   if (options.remesh) {
     watch_faces(drop, drop.workspace().violent_faces);
@@ -100,7 +116,7 @@ std::vector<Drop> change_topology(Drop drop, const Eigen::Matrix3Xd& before, con
   }
   if (options.remesh && may_fold(drop, merge_options(options))) {
     MergeReport merge;
-    auto mended = mend_folds(drop, before, merge_options(options), remesher, merge);
+    auto mended = mend_folds(drop, last_sound(drop, before, solids, time, dt), merge_options(options), remesher, merge);
     report += merge;
     clock.done(Stage::merge);
     if (mended) {
@@ -139,11 +155,11 @@ std::vector<Drop> change_topology(Drop drop, const Eigen::Matrix3Xd& before, con
 }  // namespace
 
 std::vector<Drop> remesh_and_split(Drop drop, const Eigen::Matrix3Xd& before, const std::vector<Solid>& solids,
-                                   double time, const StepOptions& options, Remesher& remesher, StageClock& clock,
-                                   StepReport& report) {
+                                   double time, double dt, const StepOptions& options, Remesher& remesher,
+                                   StageClock& clock, StepReport& report) {
   const std::uint64_t version = drop.topology_version();
   const char* after = nullptr;
-  std::vector<Drop> pieces = change_topology(std::move(drop), before, options, remesher, clock, report, after);
+  std::vector<Drop> pieces = change_topology(std::move(drop), before, solids, time, dt, options, remesher, clock, report, after);
   report.rounded += round_off_knots(pieces, version, solids, time, options.band);
   if (options.verify != Verify::nothing)
     for (const Drop& piece : pieces) verify_topology(piece, after);

@@ -35,11 +35,11 @@ void keep_inflow(std::vector<Drop>& pieces, const std::vector<Solid>& solids, do
 /// How drops merge in a step.
 MergeOptions merge_options(const StepOptions& step);
 
-/// The end of every substep, at `time` (s): mends folds (`before`: the positions at its start), brings the edges into
-/// the band, takes apart what that cut, and rounds off specks that meet themselves.
+/// The end of every substep of dt (s), at `time` (s): mends folds (`before`: the positions at its start), brings the
+/// edges into the band, takes apart what that cut, and rounds off specks that meet themselves.
 std::vector<Drop> remesh_and_split(Drop drop, const Eigen::Matrix3Xd& before, const std::vector<Solid>& solids,
-                                   double time, const StepOptions& options, Remesher& remesher, StageClock& clock,
-                                   StepReport& report);
+                                   double time, double dt, const StepOptions& options, Remesher& remesher,
+                                   StageClock& clock, StepReport& report);
 
 /// step_drop at Level::pressure: substeps as long as the motion allows, each tried and taken back if it was
 /// too long.

@@ -11,14 +11,15 @@
 namespace meniscus {
 namespace {
 
-/// A drop's points as they would be had it only moved as a rigid body since `before`; it did not move at all if a
-/// solid holds it. Sets `velocity` to that of the same motion; on a solid to half of the mean, so that a drop that is
-/// taken back again and again comes to rest.
-Eigen::Matrix3Xd carried_along(const Drop& drop, const Eigen::Matrix3Xd& before, RigidMotion& velocity) {
+/// A drop's points as they would be had it only moved as a rigid body since it was last sound: with the solid, if one
+/// holds it. Sets `velocity` to that of the same motion; on a solid to half of the mean against it, so that a drop that
+/// is taken back again and again comes to rest there.
+Eigen::Matrix3Xd carried_along(const Drop& drop, const LastSound& last, RigidMotion& velocity) {
+  const Eigen::Matrix3Xd& before = last.positions;
   velocity = RigidMotion();
   if (touches_solid(drop)) {
-    velocity.translation = 0.5 * mean_over_vertices(drop, drop.velocities());
-    return before;
+    velocity.translation = 0.5 * (last.solid_velocity + mean_over_vertices(drop, drop.velocities()));
+    return before.colwise() + last.solid_moved;
   }
   SurfaceGeometry geometry;
   geometry.compute(drop.positions(), drop.connectivity());
@@ -171,9 +172,10 @@ class FoldFinder {
 /// Takes vertices of a drop back to where they were before the substep.
 class TakeBack {
  public:
-  TakeBack(Drop& drop, const Eigen::Matrix3Xd& before, FoldFinder& finder)
+  TakeBack(Drop& drop, const LastSound& before, FoldFinder& finder)
       : drop_(drop),
         finder_(finder),
+        solid_velocity_(before.solid_velocity),
         sound_(carried_along(std::as_const(drop), before, velocity_)),
         is_back_(drop.num_rows(), 0) {}
 
@@ -229,7 +231,8 @@ class TakeBack {
     taken_.push_back(v);
     drop_.positions().col(v) = sound_.col(v);
     if (is_colliding(drop_.contact()[v]))
-      drop_.velocities().col(v) *= 0.5;  // else one that rushes into a fold does so again and again
+      drop_.velocities().col(v) =  // else one that rushes into a fold does so again and again
+          0.5 * (solid_velocity_ + drop_.velocities().col(v));
     else
       drop_.velocities().col(v) = velocity_.at(sound_.col(v));
     drop_.seam_watch()[v] = std::max(drop_.seam_watch()[v], violent_watched_calls);
@@ -239,6 +242,7 @@ class TakeBack {
   Drop& drop_;
   FoldFinder& finder_;
   RigidMotion velocity_;
+  const Eigen::Vector3d solid_velocity_;
   const Eigen::Matrix3Xd sound_;
   std::vector<std::uint8_t> is_back_;
   std::vector<std::uint32_t> taken_;
@@ -259,7 +263,7 @@ bool meet_each_other(const Drop& drop, const std::vector<FaceBox>& faces) {
   });
 }
 
-std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& before, const MergeOptions& options,
+std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before, const MergeOptions& options,
                                             Remesher& remesher, MergeReport& report) {
   WatchedRegion region = options.self_merge ? WatchedRegion() : watched_region(drop, options.remesh.band.edge_max);
   if (region.empty()) return std::nullopt;
@@ -271,7 +275,7 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& 
   }
   const Ledger ledger = measure_ledger(drop);
   std::optional<TakeBack> take_back;
-  if (before.cols() == static_cast<Eigen::Index>(drop.num_rows())) take_back.emplace(drop, before, finder);
+  if (before.positions.cols() == static_cast<Eigen::Index>(drop.num_rows())) take_back.emplace(drop, before, finder);
   if (take_back) take_back->run(Folds::between_neighbours);  // no union mends these
   BooleanResult result;
   if (!finder.meeting().empty()) {

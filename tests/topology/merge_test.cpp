@@ -123,7 +123,7 @@ TEST(MendFolds, UniteADropThatCrossesItself) {
   options.self_merge = true;
   Remesher remesher;
   MergeReport report;
-  const auto mended = mend_folds(drop, before, options, remesher, report);
+  const auto mended = mend_folds(drop, {before}, options, remesher, report);
   ASSERT_TRUE(mended.has_value());
   ASSERT_EQ(mended->size(), 1u);
   EXPECT_EQ(judge::defect(mended->front()), "");
@@ -150,7 +150,7 @@ TEST(MendFolds, TakesBackWhatFoldsOverItsNeighbours) {
   ASSERT_TRUE(may_fold(drop, options));
   Remesher remesher;
   MergeReport report;
-  EXPECT_FALSE(mend_folds(drop, before, options, remesher, report).has_value());
+  EXPECT_FALSE(mend_folds(drop, {before}, options, remesher, report).has_value());
   EXPECT_EQ(judge::defect(drop), "");
   EXPECT_GT(report.taken_back, 0u);
   EXPECT_LT((drop.positions() - before).colwise().norm().maxCoeff(), 0.2);

@@ -61,6 +61,13 @@ void watch_thin_sheets(Drop& drop, double area, double edge_max);
 /// Whether mend_folds has anything to look at: watched vertices, or a drop at all with options.self_merge.
 bool may_fold(const Drop& drop, const MergeOptions& options);
 
+/// Where a drop's vertices were when it was last sound, and what the solid that holds it has done since.
+struct LastSound {
+  const Eigen::Matrix3Xd& positions;                            ///< 3 x rows, cm
+  Eigen::Vector3d solid_moved = Eigen::Vector3d::Zero();     ///< cm
+  Eigen::Vector3d solid_velocity = Eigen::Vector3d::Zero();  ///< cm/s
+};
+
 /// Unites a drop with itself where it has folded over: everywhere with options.self_merge, else near watched
 /// vertices: those of violent faces, and those at the seam of a recent merge. There the two sheets beside the seam
 /// still move towards each other, and the liquid goes on to fuse in the steps after the first touch. A seam is watched
@@ -68,12 +75,11 @@ bool may_fold(const Drop& drop, const MergeOptions& options);
 ///
 /// Like merge_drops: volume, momentum and attributes are kept, and the result may be several drops. Nothing
 /// if there is no fold. Nothing, too, if the fold cannot be united, as one between neighbouring faces:
-/// `before` (3 x rows, cm) says where the vertices were when the drop was last sound, and those that
-/// make the surface meet itself go back there, carried along by the drop's rigid motion and with its
-/// velocity; more around them if that is not enough. Then they are smoothed as far as nothing meets, so that the next
-/// step does not end the same way. A drop on a solid is not carried along; of one off solids centre of mass
-/// and momenta stay.
-std::optional<std::vector<Drop>> mend_folds(Drop& drop, const Eigen::Matrix3Xd& before, const MergeOptions& options,
+/// vertices that make the surface meet itself go back to where they were when the drop was last sound (`before`),
+/// carried along by its rigid motion and with its velocity; more around them if that is not enough. Then they are
+/// smoothed as far as nothing meets, so that the next step does not end the same way. A drop on a solid is carried along
+/// by that; of one off solids centre of mass and momenta stay.
+std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before, const MergeOptions& options,
                                             Remesher& remesher, MergeReport& report);
 
 }  // namespace meniscus

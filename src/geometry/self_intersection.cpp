@@ -15,30 +15,26 @@ using Triple = std::array<std::uint32_t, 3>;
 using Points = std::vector<std::array<double, 3>>;
 
 Point cgal_point(const Points& points, std::uint32_t v) { return {points[v][0], points[v][1], points[v][2]}; }
-Eigen::Vector3d eigen_point(const Points& points, std::uint32_t v) { return Eigen::Vector3d::Map(points[v].data()); }
 
-Kernel::Triangle_3 triangle(const Points& points, const Triple& t) {
-  return {cgal_point(points, t[0]), cgal_point(points, t[1]), cgal_point(points, t[2])};
-}
+Kernel::Triangle_3 triangle(const std::array<Point, 3>& t) { return {t[0], t[1], t[2]}; }
 
-/// Turned so that the vertices shared with `other` come first; returns how many there are.
-int shared_first(Triple& t, const Triple& other) {
-  const auto is_shared = [&](std::uint32_t v) { return v == other[0] || v == other[1] || v == other[2]; };
-  return int(std::partition(t.begin(), t.end(), is_shared) - t.begin());
-}
-
-/// Whether a plane through the first vertex of both triangles, which they share, clearly parts the
+/// Whether one of two planes through the first corner of both triangles, which they share, clearly parts the
 /// rest of them: the quick answer to most pairs. Says no if rounding could matter.
-bool is_clearly_apart(const Points& points, const Triple& s, const Triple& t) {
-  const Eigen::Vector3d v = eigen_point(points, s[0]);
-  const Eigen::Vector3d a = eigen_point(points, s[1]) - v, b = eigen_point(points, s[2]) - v;
-  const Eigen::Vector3d c = eigen_point(points, t[1]) - v, d = eigen_point(points, t[2]) - v;
-  const Eigen::Vector3d m =
-      (a.normalized() + b.normalized()).normalized() - (c.normalized() + d.normalized()).normalized();
-  const auto clearly_ahead = [](const Eigen::Vector3d& x, const Eigen::Vector3d& direction) {
-    return x.dot(direction) > 1e-14 * x.norm() * direction.norm();  // false for NaN, too
+bool is_clearly_apart(const std::array<Point, 3>& s, const std::array<Point, 3>& t) {
+  const auto from_first = [&](const Point& p) {
+    return Eigen::Vector3d(p.x() - s[0].x(), p.y() - s[0].y(), p.z() - s[0].z());
   };
-  return clearly_ahead(a, m) && clearly_ahead(b, m) && clearly_ahead(c, -m) && clearly_ahead(d, -m);
+  const Eigen::Vector3d a = from_first(s[1]), b = from_first(s[2]), c = from_first(t[1]), d = from_first(t[2]);
+  const auto part = [&](const Eigen::Vector3d& m) {
+    const double least = 1e-28 * m.squaredNorm();
+    const auto clearly_ahead = [&](const Eigen::Vector3d& x, double sign) {
+      const double way = sign * x.dot(m);
+      return way > 0 && way * way > least * x.squaredNorm();  // false for NaN, too
+    };
+    return clearly_ahead(a, 1) && clearly_ahead(b, 1) && clearly_ahead(c, -1) && clearly_ahead(d, -1);
+  };
+  return part(a + b - c - d) ||
+         part((a.normalized() + b.normalized()).normalized() - (c.normalized() + d.normalized()).normalized());
 }
 
 /// The triangles that can be judged, each set of three vertices once.
@@ -64,21 +60,13 @@ struct Stop {};
 
 }  // namespace
 
-bool meet_elsewhere(const std::vector<std::array<double, 3>>& points, std::array<std::uint32_t, 3> s,
-                    std::array<std::uint32_t, 3> t) {
-  const Triple s_given = s;
-  const int num_shared = shared_first(s, t);
-  shared_first(t, s_given);
-  if (num_shared == 0) return CGAL::do_intersect(triangle(points, s), triangle(points, t));
+bool meet_elsewhere(const std::array<Point, 3>& s, const std::array<Point, 3>& t, int num_shared) {
+  if (num_shared == 0) return CGAL::do_intersect(triangle(s), triangle(t));
   if (num_shared == 1)  // they share more than the vertex if the side opposite in one meets the other
-    return !is_clearly_apart(points, s, t) &&
-           (CGAL::do_intersect(triangle(points, s),
-                               Kernel::Segment_3(cgal_point(points, t[1]), cgal_point(points, t[2]))) ||
-            CGAL::do_intersect(triangle(points, t),
-                               Kernel::Segment_3(cgal_point(points, s[1]), cgal_point(points, s[2]))));
-  const Point a = cgal_point(points, s[0]), b = cgal_point(points, s[1]);
-  const Point c = cgal_point(points, s[2]), d = cgal_point(points, t[2]);
-  return CGAL::orientation(a, b, c, d) == CGAL::COPLANAR && CGAL::coplanar_orientation(a, b, c, d) == CGAL::POSITIVE;
+    return !is_clearly_apart(s, t) && (CGAL::do_intersect(triangle(s), Kernel::Segment_3(t[1], t[2])) ||
+                                       CGAL::do_intersect(triangle(t), Kernel::Segment_3(s[1], s[2])));
+  return CGAL::orientation(s[0], s[1], s[2], t[2]) == CGAL::COPLANAR &&
+         CGAL::coplanar_orientation(s[0], s[1], s[2], t[2]) == CGAL::POSITIVE;
 }
 
 void for_each_pair_of_boxes(const std::vector<Eigen::AlignedBox3d>& boxes,
@@ -116,9 +104,10 @@ std::vector<std::array<std::uint32_t, 2>> self_intersections(const MeshData& dat
     for (const auto v : data.triangles[f]) box.extend(point(data, v));
     boxes.push_back(box);
   }
+  const auto at = [&](std::uint32_t v) { return cgal_point(data.points, v); };
   for_each_pair_of_boxes(boxes, [&](std::uint32_t i, std::uint32_t j) {
     const std::uint32_t low = faces[std::min(i, j)], high = faces[std::max(i, j)];
-    if (meet_elsewhere(data.points, data.triangles[low], data.triangles[high])) pairs.push_back({low, high});
+    if (meet_elsewhere(at, data.triangles[low], data.triangles[high])) pairs.push_back({low, high});
     return pairs.size() < limit;
   });
   std::sort(pairs.begin(), pairs.end());

@@ -199,7 +199,7 @@ bool is_sound_at_seam(const BooleanResult& result, const std::vector<std::uint32
   const auto is_apart = [&](const FaceBox& face, bool is_new) {
     return grid.for_each_meeting(face.box, [&](const FaceBox& other) {
       return (is_new && other.face >= face.face) ||
-             !meet_elsewhere(result.points, result.triangles[face.face], result.triangles[other.face]);
+             !meet_elsewhere(point, result.triangles[face.face], result.triangles[other.face]);
     });
   };
   for (const auto& face : made)

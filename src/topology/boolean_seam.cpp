@@ -210,37 +210,10 @@ bool sort_along_edges(const MeshView& a, const MeshView& b, Seam& seam) {
   return all_differ;
 }
 
-/// The corners of t that s lacks lie on one side of s: they meet in what they share only.
-bool is_on_one_side(const MeshView& mesh, const Triangle& s, const Triangle& t) {
-  int found = 0;
-  for (const auto v : t) {
-    if (v == s[0] || v == s[1] || v == s[2]) continue;
-    const int at = side(mesh, s, point_at(mesh, v));
-    if (at == 0 || at == -found) return false;
-    found = at;
-  }
-  return true;
-}
-
 /// Faces that share a vertex or an edge and meet in nothing else.
 bool meet_as_neighbours(const MeshView& mesh, std::uint32_t f, std::uint32_t g) {
-  if (is_on_one_side(mesh, mesh.triangles[f], mesh.triangles[g])) return true;
-  const auto array = [](const Point& p) { return std::array<double, 3>{p.x(), p.y(), p.z()}; };
-  std::vector<std::array<double, 3>> points;  // at most five
-  std::vector<std::uint32_t> names;
-  const auto local = [&](const Triangle& t) {
-    Triangle mapped;
-    for (int k = 0; k < 3; ++k) {
-      const auto found = std::find(names.begin(), names.end(), t[k]);
-      mapped[k] = static_cast<std::uint32_t>(found - names.begin());
-      if (found != names.end()) continue;
-      names.push_back(t[k]);
-      points.push_back(array(point_at(mesh, t[k])));
-    }
-    return mapped;
-  };
-  const Triangle s = local(mesh.triangles[f]), t = local(mesh.triangles[g]);
-  return !meet_elsewhere(points, s, t);
+  const auto at = [&](std::uint32_t v) -> const Point& { return point_at(mesh, v); };
+  return !meet_elsewhere(at, mesh.triangles[f], mesh.triangles[g]);
 }
 
 std::optional<Seam> finish(Collector& collector, const MeshView& a, const MeshView& b) {
@@ -272,14 +245,12 @@ bool faces_meet(const MeshView& mesh, std::uint32_t f, std::uint32_t g) {
 std::optional<Seam> find_self_seam(const MeshView& mesh, const std::vector<FaceBox>& faces) {
   Collector collector(mesh, mesh);
   const FaceGrid grid(faces);
-  for (const auto& f : faces)
-    if (!grid.for_each_meeting(f.box, [&](const FaceBox& g) {
-          if (f.face >= g.face) return true;
-          return share_a_vertex(mesh.triangles[f.face], mesh.triangles[g.face])
-                     ? meet_as_neighbours(mesh, f.face, g.face)
-                     : collector.look_at(f.face, g.face) && collector.look_at(g.face, f.face);
-        }))
-      return std::nullopt;
+  const bool in_general_position = grid.for_each_pair([&](const FaceBox& f, const FaceBox& g) {
+    return share_a_vertex(mesh.triangles[f.face], mesh.triangles[g.face])
+               ? meet_as_neighbours(mesh, f.face, g.face)
+               : collector.look_at(f.face, g.face) && collector.look_at(g.face, f.face);
+  });
+  if (!in_general_position) return std::nullopt;
   return finish(collector, mesh, mesh);
 }
 

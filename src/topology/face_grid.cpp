@@ -6,8 +6,8 @@
 namespace meniscus {
 namespace {
 
-/// A grid may have this many cells and entries a box.
-constexpr std::size_t most_per_box = 8;
+/// A grid may have this many entries and cells a box.
+constexpr std::size_t most_per_box = 8, most_cells_per_box = 32;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ FaceGrid::FaceGrid(const std::vector<FaceBox>& boxes) : boxes_(boxes) {
 
 bool FaceGrid::try_cells(double cell_size) {
   const Eigen::Array3d sizes = extent_.sizes();
-  const double most = static_cast<double>(most_per_box * boxes_.size() + 1);
+  const double most = static_cast<double>(most_cells_per_box * boxes_.size() + 1);
   Eigen::Array3d cells = Eigen::Array3d::Ones();
   if (cell_size > 0) cells = (sizes / cell_size).ceil().max(1.0).min(most);
   if (cells.prod() > most) return false;

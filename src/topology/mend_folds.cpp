@@ -84,11 +84,11 @@ class FoldFinder {
         is_waiting_(faces_.size(), 0) {
     for (std::uint32_t k = 0; k < faces_.size(); ++k) place_[faces_[k].face] = k;
     const MeshView mesh = view_of(drop_);
-    for (const FaceBox& f : faces_)
-      grid_.for_each_meeting(f.box, [&](const FaceBox& g) {
-        if (f.face < g.face && boolean_parts::faces_meet(mesh, f.face, g.face)) meeting_.push_back({f.face, g.face});
-        return true;
-      });
+    grid_.for_each_pair([&](const FaceBox& f, const FaceBox& g) {
+      if (boolean_parts::faces_meet(mesh, f.face, g.face))
+        meeting_.push_back({std::min(f.face, g.face), std::max(f.face, g.face)});
+      return true;
+    });
     std::sort(meeting_.begin(), meeting_.end());
   }
   /// The vertex has another place now.
@@ -257,10 +257,8 @@ std::vector<std::array<std::uint32_t, 2>> pairs_that_meet(const Drop& drop, std:
 bool meet_each_other(const Drop& drop, const std::vector<FaceBox>& faces) {
   const MeshView mesh = view_of(drop);
   const FaceGrid grid(faces);
-  return std::any_of(faces.begin(), faces.end(), [&](const FaceBox& f) {
-    return !grid.for_each_meeting(
-        f.box, [&](const FaceBox& g) { return g.face <= f.face || !boolean_parts::faces_meet(mesh, f.face, g.face); });
-  });
+  return !grid.for_each_pair(
+      [&](const FaceBox& f, const FaceBox& g) { return !boolean_parts::faces_meet(mesh, f.face, g.face); });
 }
 
 std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before, const MergeOptions& options,

@@ -41,6 +41,21 @@ bool is_clearly_beside(const SheetGuard::NewFace& s, const SheetGuard::NewFace& 
   return side != 0;
 }
 
+bool meet(const SheetGuard::NewFace& s, const SheetGuard::NewFace& t) {
+  if (is_clearly_beside(s, t) || is_clearly_beside(t, s)) return false;
+  const auto in_s = [&](std::uint32_t v) {
+    return std::find(s.vertices.begin(), s.vertices.end(), v) - s.vertices.begin();
+  };
+  if (in_s(t.vertices[0]) < 3 && in_s(t.vertices[1]) < 3 && in_s(t.vertices[2]) < 3) return true;
+  const auto at = [&](std::uint32_t v) {
+    const auto k = in_s(v);
+    return to_point(k < 3 ? s.points[static_cast<std::size_t>(k)]
+                          : t.points[static_cast<std::size_t>(
+                                std::find(t.vertices.begin(), t.vertices.end(), v) - t.vertices.begin())]);
+  };
+  return meet_elsewhere(at, s.vertices, t.vertices);
+}
+
 }  // namespace
 
 SheetGuard::SheetGuard(const Drop& drop, WatchedRegion region, double cell)
@@ -83,27 +98,6 @@ void SheetGuard::add_to_cells(std::uint32_t face, const Eigen::AlignedBox3d& box
     auto& list = faces_[cell];
     if (list.empty() || list.back() != face) list.push_back(face);
   });
-}
-
-bool SheetGuard::meet(const NewFace& s, const NewFace& t) const {
-  if (is_clearly_beside(s, t) || is_clearly_beside(t, s)) return false;
-  points_.clear();
-  std::array<std::uint32_t, 6> names{};
-  std::size_t known = 0;
-  const auto number = [&](const NewFace& face) {
-    std::array<std::uint32_t, 3> mapped{};
-    for (int k = 0; k < 3; ++k) {
-      const auto found = std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(known), face.vertices[k]);
-      mapped[k] = static_cast<std::uint32_t>(found - names.begin());
-      if (mapped[k] < known) continue;
-      names[known++] = face.vertices[k];
-      points_.push_back({face.points[k].x(), face.points[k].y(), face.points[k].z()});
-    }
-    return mapped;
-  };
-  const auto i = number(s), j = number(t);
-  if (known < 4) return true;  // the same three vertices
-  return meet_elsewhere(points_, i, j);
 }
 
 bool SheetGuard::would_meet(const std::vector<NewFace>& faces, const std::vector<std::uint32_t>& replaced,

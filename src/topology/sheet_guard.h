@@ -50,7 +50,6 @@ class SheetGuard {
   void for_each_cell(const Eigen::AlignedBox3d& box, Visit visit) const;
   void learn_faces();
   void add_to_cells(std::uint32_t face, const Eigen::AlignedBox3d& box);
-  bool meet(const NewFace& s, const NewFace& t) const;
   NewFace face_at(std::uint32_t face) const;
 
   const Drop& drop_;
@@ -58,7 +57,6 @@ class SheetGuard {
   double cell_;
   bool knows_faces_ = false;  // most calls of remeshing never ask
   std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> faces_;
-  mutable std::vector<std::array<double, 3>> points_;  // of one test
 };
 
 }  // namespace meniscus

@@ -21,10 +21,6 @@ void verify_topology(const Drop& drop, const char* after) {
   if (!defect.empty()) throw SoundnessError(fmt::format("drop {} is unsound after {}: {}", drop.id(), after, defect));
 }
 
-/// The volume of the ball whose diameter is the shortest edge (cm^3): a piece with less has no room for edges in the
-/// band.
-double least_volume(const EdgeBand& band) { return 3.14159265358979323846 / 6 * std::pow(band.edge_min, 3); }
-
 /// A piece smaller than edges are long has no shape to change: of the violent motion of the neck that it was torn
 /// from it keeps the translation. Its few vertices would turn it over otherwise.
 void stiffen_speck(Drop& piece, const EdgeBand& band) {
@@ -137,7 +133,7 @@ std::vector<Drop> change_topology(Drop drop, const Eigen::Matrix3Xd& before, con
   clock.done(Stage::remesh);
   if (remeshed.cuts > 0) {
     SplitReport split;
-    pieces = split_components(std::move(drop), split, least_volume(options.band));
+    pieces = split_components(std::move(drop), split, least_volume(options.band.edge_min));
     report.deleted += split.deleted + split.deleted_empty;
     for (Drop& piece : pieces) {
       stiffen_speck(piece, options.band);

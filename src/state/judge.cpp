@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/state/judge.h"
 
+#include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <fmt/format.h>
 
@@ -97,7 +98,7 @@ std::vector<std::vector<std::size_t>> components_of(const Soup& soup) {
   return components;
 }
 
-/// Closed, 2-manifold, finite, CGAL's own invariants, and positive volume of each component.
+/// Closed, 2-manifold, finite, CGAL's own invariants, and positive volume of each component but bubbles.
 std::string topology_defect(const Mesh& mesh) {
   if (!mesh.is_valid(false)) return "Surface_mesh::is_valid says no";
   const Soup soup = soup_of(mesh);
@@ -106,10 +107,16 @@ std::string topology_defect(const Mesh& mesh) {
     if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) return "a coordinate is not finite";
   if (auto defect = edges_defect(soup); !defect.empty()) return defect;
   if (auto defect = fans_defect(soup); !defect.empty()) return defect;
-  for (const auto& faces : components_of(soup))
-    if (!(volume_of(soup, faces) > 0))
-      return fmt::format("a component of {} faces has volume {}", faces.size(), volume_of(soup, faces));
-  return {};
+  double sum = 0;
+  std::string defect;
+  for (const auto& faces : components_of(soup)) {
+    const double volume = volume_of(soup, faces);
+    sum += volume;
+    if (!(volume > 0) && defect.empty())
+      defect = fmt::format("a component of {} faces has volume {}", faces.size(), volume);
+  }
+  const bool may_be_bubbles = !defect.empty() && sum > 0;
+  return may_be_bubbles && CGAL::Polygon_mesh_processing::does_bound_a_volume(mesh) ? "" : defect;
 }
 
 bool meets_itself(const Mesh& mesh) {

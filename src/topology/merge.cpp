@@ -226,7 +226,7 @@ std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, co
   std::vector<Drop> pieces;
   if (remeshed.cuts > 0) {
     SplitReport split;
-    pieces = split_components(std::move(united), split);
+    pieces = split_components(std::move(united), split, least_volume(options.remesh.band.edge_min));
     report.cuts += remeshed.cuts;
     report.deleted += split.deleted + split.deleted_empty;
   } else {

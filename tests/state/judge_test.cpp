@@ -34,6 +34,17 @@ TEST(Judge, FindsWhatLooksInward) {
   EXPECT_NE(judge::topology_defect(mesh).find("volume"), std::string::npos);
 }
 
+TEST(Judge, AllowsABubbleInTheLiquidAndNowhereElse) {
+  const auto with_bubble_at = [](double x) {
+    Mesh bubble = ball(), mesh = ball();
+    for (auto& p : bubble.points()) p = Point(x - 0.3 * p.x(), 0.3 * p.y(), 0.3 * p.z());
+    mesh += bubble;
+    return mesh;
+  };
+  EXPECT_EQ(judge::defect(with_bubble_at(0.2)), "");
+  EXPECT_NE(judge::topology_defect(with_bubble_at(2)).find("volume"), std::string::npos);
+}
+
 TEST(Judge, FindsANumberThatIsNone) {
   Mesh mesh = ball();
   mesh.point(VertexIndex(7)) = Point(0, std::numeric_limits<double>::quiet_NaN(), 0);

@@ -29,7 +29,7 @@ std::string edges_defect(const Soup& soup);
 /// The faces of each vertex form one fan. Precondition: edges_defect is empty.
 std::string fans_defect(const Soup& soup);
 
-/// Closed, 2-manifold, finite, CGAL's own invariants, and positive volume of each component.
+/// Closed, 2-manifold, finite, CGAL's own invariants, and positive volume of each component but bubbles in the liquid.
 std::string topology_defect(const Mesh& mesh);
 /// Whether faces meet that share no vertex or edge, or more than that (exact). Precondition: no topology_defect.
 bool meets_itself(const Mesh& mesh);

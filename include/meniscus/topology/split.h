@@ -18,6 +18,9 @@ struct SplitReport {
   double volume_shared = 0;       ///< old target volume less what the pieces enclose; shared among them
 };
 
+/// The volume of the ball whose diameter is the shortest edge (cm^3): a piece with less has no room for edges.
+inline double least_volume(double edge_min) { return 3.14159265358979323846 / 6 * edge_min * edge_min * edge_min; }
+
 /// Each connected component becomes a drop of its own, in the order of smallest old vertex index,
 /// with velocities, contact state and every other vertex map of numbers or vectors. A component of
 /// one tetrahedron, or of no positive volume, or of at most 16 faces that meet each other, is deleted; so is one of

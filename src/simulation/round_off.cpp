@@ -13,6 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// In lengths of edge_min.
+constexpr double thinnest_film = 0.25;
+
 /// A ball about `center` that reaches into solids goes out of them along their normals.
 Vector3d clear_of_solids(Vector3d center, double radius, const std::vector<Solid>& solids, double time) {
   constexpr double clear = 1.01;
@@ -46,6 +49,13 @@ bool is_knot(const Drop& drop) {
 }  // namespace
 
 bool is_speck(const Drop& drop, const EdgeBand& band) { return ball_radius(drop) < band.edge_max; }
+
+bool has_no_shape(const Drop& drop, const EdgeBand& band) {
+  if (is_speck(drop, band)) return true;
+  SurfaceGeometry geometry;
+  geometry.compute(drop.positions(), drop.connectivity());
+  return 2 * drop.target_volume() < thinnest_film * band.edge_min * geometry.area();
+}
 
 Drop rounded_off(const Drop& drop, const std::vector<Solid>& solids, double time, double dt, const EdgeBand& band) {
   const Vector3d velocity = mean_over_vertices(drop, drop.velocities());

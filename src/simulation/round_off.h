@@ -14,7 +14,11 @@ namespace meniscus {
 /// The drop is hardly larger than an edge: its mesh says how much liquid is there, and where, but not its shape.
 bool is_speck(const Drop& drop, const EdgeBand& band);
 
-/// The ball that holds a drop's target volume: what is left of a speck that no operator can step any more. It is where
+/// A speck, or a film so much thinner than its edges are long that it would have torn: what becomes of it when no
+/// operator can step it any more does not depend on its shape.
+bool has_no_shape(const Drop& drop, const EdgeBand& band);
+
+/// The ball that holds a drop's target volume: what is left of one without a shape that no operator can step any more. It is where
 /// the mean of the vertices gets to in dt (s) with their mean velocity, clear of the solids at `time` (s), and
 /// touches nothing. Keeps that velocity, id, target volume and inflow.
 Drop rounded_off(const Drop& drop, const std::vector<Solid>& solids, double time, double dt, const EdgeBand& band);

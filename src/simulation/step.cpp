@@ -271,7 +271,7 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
   try {
     deform_or_recover(drop, time, dt, options, report, move);
   } catch (const NumericsError&) {
-    if (!is_speck(drop, options.band)) throw;
+    if (!has_no_shape(drop, options.band)) throw;
     ++report.rounded;
     return one_piece(rounded_off(drop, solids, time, dt, options.band));
   }

@@ -123,7 +123,7 @@ std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, 
     try {
       take_substep(traveller, solids, time, least_share * dt, options, kept, clock, report);
     } catch (const NumericsError&) {
-      if (!is_speck(traveller.drop, options.band)) throw;
+      if (!has_no_shape(traveller.drop, options.band)) throw;
       ++report.rounded;
       traveller.drop.set_target_volume(traveller.drop.target_volume() + traveller.drop.inflow() * traveller.left);
       arrived.push_back(rounded_off(traveller.drop, solids, time, traveller.left, options.band));

@@ -3,6 +3,7 @@
 #include "meniscus/geometry/measure.h"
 #include "meniscus/geometry/rigid_motion.h"
 #include "meniscus/geometry/shapes.h"
+#include "meniscus/operators/pressure.h"
 #include "meniscus/simulation/oscillation.h"
 #include "meniscus/simulation/simulation.h"
 #include "meniscus/state/contact_line.h"
@@ -349,6 +350,29 @@ TEST(PressureLevel, SameBitsWithOneThreadAndTwo) {
     EXPECT_EQ(one.drops()[d].positions(), two.drops()[d].positions());
     EXPECT_EQ(one.drops()[d].velocities(), two.drops()[d].velocities());
   }
+}
+
+/// What was taken back beside a solid that moves may lie deep in it; no substep is short enough to change that.
+TEST(PressureStep, AVertexThatWasTooDeepInASolidDoesNotShortenTheSubstep) {
+  Drop drop(make_icosphere({0, 0, 0.19}, 0.2, 8));
+  PressureOptions options;
+  options.edge_min = 0.02;
+  const std::vector<Solid> solids{Solid::plane({0, 0, 0}, {0, 0, 1})};
+  const double depth = 0.01;
+  ASSERT_GT(depth, 0.2 * options.edge_min);
+  PressureStep step(drop, solids, 0, options);
+  EXPECT_TRUE(step.solve(1e-4));
+}
+
+TEST(PressureStep, ASubstepThatGoesTooDeepIntoASolidIsRefused) {
+  Drop drop(make_icosphere({0, 0, 0.21}, 0.2, 8));
+  drop.velocities().colwise() += Vector3d(0, 0, -20);
+  PressureOptions options;
+  options.edge_min = 0.02;
+  const std::vector<Solid> solids{Solid::plane({0, 0, 0}, {0, 0, 1})};
+  PressureStep step(drop, solids, 0, options);
+  EXPECT_FALSE(step.solve(1e-3)) << "0.02 cm, of which 0.01 in the solid";
+  EXPECT_TRUE(step.solve(5e-4));
 }
 
 }  // namespace

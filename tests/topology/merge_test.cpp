@@ -156,6 +156,30 @@ TEST(MendFolds, TakesBackWhatFoldsOverItsNeighbours) {
   EXPECT_LT((drop.positions() - before).colwise().norm().maxCoeff(), 0.2);
 }
 
+TEST(MendFolds, WhatIsTakenBackGoesAlongWithTheSolidThatHoldsIt) {
+  // Half of the ball lies on a solid that moves on by `way`; a vertex of the other half flies through the surface.
+  Drop drop = ball({0, 0, 0}, 1, {0, 3, 0});
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+    if (drop.positions()(2, i) < 0) drop.contact()[i] = Contact::wetted;
+  const Eigen::Matrix3Xd before = drop.positions();
+  const Vector3d way(0.4, 0, 0), velocity(2, 0, 0);
+  drop.positions().colwise() += way;
+  const auto flies = [&](std::uint32_t v) { return drop.contact()[v] == Contact::free && before(2, v) > 0.2; };
+  std::uint32_t v = 0;
+  while (!flies(v)) ++v;
+  const std::uint32_t w = drop.connectivity().ring(v).neighbour[0];
+  drop.positions().col(v) += 2.2 * (before.col(w) - before.col(v));
+  ASSERT_NE(judge::defect(drop), "");
+  watch_faces(drop, violent_faces(drop, before));
+  Remesher remesher;
+  MergeReport report;
+  EXPECT_FALSE(mend_folds(drop, {before, way, velocity}, options_for(0.08, 0.24), remesher, report).has_value());
+  EXPECT_EQ(judge::defect(drop), "");
+  EXPECT_GT(report.taken_back, 0u);
+  EXPECT_LT(((drop.positions() - before).colwise() - way).colwise().norm().maxCoeff(), 0.2);
+  EXPECT_NEAR((drop.velocities().col(v) - 0.5 * (velocity + Vector3d(0, 3, 0))).norm(), 0, 1e-12);
+}
+
 TEST(MendFolds, ACalmDropIsNotWatched) {
   Drop drop = ball({0, 0, 0}, 1, {1, 0, 0});
   const Eigen::Matrix3Xd before = drop.positions();

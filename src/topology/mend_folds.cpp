@@ -268,7 +268,7 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before,
   region.add(contact_slab(drop));  // what is taken back is offset elsewhere, and films must not come through
   FoldFinder finder(drop, region.faces_of(drop));
   if (finder.meeting().empty()) {
-    count_down_watch(drop, options.remesh.band.edge_max);
+    count_down_watch(drop, options.remesh.band);
     return std::nullopt;
   }
   const Ledger ledger = measure_ledger(drop);
@@ -284,7 +284,7 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before,
   report.taken_back += taken.size();
   if (!result.ok() || result.outcome != BooleanOutcome::crossing) {
     if (taken.empty())
-      count_down_watch(drop, options.remesh.band.edge_max);
+      count_down_watch(drop, options.remesh.band);
     else if (!options.self_merge)
       region = guarded_region(drop, options.remesh.band.edge_max);  // it reaches where they are now
     relax(drop, taken, region, options.remesh.band.edge_max);

@@ -15,8 +15,8 @@ inline constexpr std::uint8_t watched_calls = 30;
 /// The same for a violent face.
 inline constexpr std::uint8_t violent_watched_calls = 5;
 
-/// Counts the watch of every vertex down; it does not end where another sheet of the surface is within `reach` (cm).
-void count_down_watch(Drop& drop, double reach);
+/// Counts the watch of every vertex down; it does not end where another sheet of the surface is close.
+void count_down_watch(Drop& drop, const EdgeBand& band);
 
 /// The drop that a Boolean result of a and b (or of a with itself) describes, its seam remeshed, with the given
 /// ledger and target volume.

@@ -27,9 +27,10 @@ Vector3d area_vector(const MeshView& mesh, const Triangle& t) {
   return (Vector3d(mesh.points.col(t[1])) - a).cross(Vector3d(mesh.points.col(t[2])) - a);
 }
 
-/// The watch does not end where another sheet of the surface is within `reach`: vertices about to be forgotten are
-/// watched on, and those of the other sheet with them. Faces on solids are no sheets.
-void watch_close_sheets(Drop& drop, double reach) {
+/// The watch does not end where another sheet of the surface is within edge_max with air between the two, or within
+/// edge_min with liquid: vertices about to be forgotten are watched on, and those of the other sheet with them. Faces on
+/// solids are no sheets.
+void watch_close_sheets(Drop& drop, const EdgeBand& band) {
   const MeshView mesh = view_of(std::as_const(drop));
   std::uint8_t* watch = drop.seam_watch();
   const Contact* contact = drop.contact();
@@ -47,20 +48,31 @@ void watch_close_sheets(Drop& drop, double reach) {
     for (const auto v : t) region.extend(Vector3d(mesh.points.col(v)));
   }
   if (ending.empty()) return;
-  const Vector3d margin = Vector3d::Constant(reach);
-  const std::vector<FaceBox> faces = faces_in(mesh, {region.min() - margin, region.max() + margin});
+  const Vector3d margin = Vector3d::Constant(band.edge_max);
+  std::vector<FaceBox> faces = faces_in(mesh, {region.min() - margin, region.max() + margin});
+  faces.erase(std::remove_if(faces.begin(), faces.end(),
+                             [&](const FaceBox& f) { return !has(mesh.triangles[f.face], is_free); }),
+              faces.end());
+  std::vector<std::uint32_t> face_at(faces.size());
+  std::vector<Vector3d> normal(faces.size()), center(faces.size());
+  for (std::uint32_t k = 0; k < faces.size(); ++k) {
+    face_at[k] = faces[k].face;
+    normal[k] = area_vector(mesh, mesh.triangles[faces[k].face]).stableNormalized();
+    center[k] = faces[k].box.center();
+    faces[k].face = k;
+  }
   const FaceGrid grid(faces);
   std::vector<std::uint32_t> kept;
+  std::size_t k = 0;
   for (const auto f : ending) {
+    while (face_at[k] != f) ++k;  // both lists are sorted
     const Triangle& s = mesh.triangles[f];
-    Eigen::AlignedBox3d box;
-    for (const auto v : s) box.extend(Vector3d(mesh.points.col(v)));
-    const Vector3d m = area_vector(mesh, s);
+    const Eigen::AlignedBox3d& box = faces[k].box;
     grid.for_each_meeting({box.min() - margin, box.max() + margin}, [&](const FaceBox& other) {
-      const Triangle& t = mesh.triangles[other.face];
-      const Vector3d n = area_vector(mesh, t);
-      if (boolean_parts::share_a_vertex(s, t) || !has(t, is_free) || !(m.dot(n) < opposite * m.norm() * n.norm()))
-        return true;
+      if (!(normal[k].dot(normal[other.face]) < opposite)) return true;
+      if (normal[k].dot(center[other.face] - center[k]) < -band.edge_min) return true;  // liquid between, and not thin
+      const Triangle& t = mesh.triangles[face_at[other.face]];
+      if (boolean_parts::share_a_vertex(s, t)) return true;
       kept.insert(kept.end(), s.begin(), s.end());
       kept.insert(kept.end(), t.begin(), t.end());
       return true;
@@ -112,8 +124,8 @@ bool may_fold(const Drop& drop, const MergeOptions& options) {
          (options.self_merge || std::any_of(watch, watch + drop.num_rows(), [](std::uint8_t w) { return w != 0; }));
 }
 
-void count_down_watch(Drop& drop, double reach) {
-  watch_close_sheets(drop, reach);
+void count_down_watch(Drop& drop, const EdgeBand& band) {
+  watch_close_sheets(drop, band);
   std::uint8_t* watch = drop.seam_watch();
   for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
     if (watch[v] > 0) --watch[v];

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Runs the scenes of data/scenes and prints, a line a scene: how many triangles, steps and frames a second, whether
 // every frame is sound by geometry/inspect, the volume's ledger, and the paper's figure beside it.
-// bench_scenes [--quick] [--frames N] [SCENE...]: names without .json; all of them if none is named.
 #include "meniscus/geometry/inspect.h"
 #include "meniscus/scene/read_scene.h"
 #include "meniscus/simulation/simulation.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -84,18 +83,16 @@ void print(const std::string& name, const Scene& scene, const Result& r) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
+  CLI::App app("The scenes of data/scenes: what each costs, whether every frame is sound, and the paper's figure");
   bool quick = false;
   int frames = -1;
-  std::vector<std::string> names;
-  for (int k = 1; k < argc; ++k) {
-    if (std::strcmp(argv[k], "--quick") == 0)
-      quick = true;
-    else if (std::strcmp(argv[k], "--frames") == 0 && k + 1 < argc)
-      frames = std::atoi(argv[++k]);
-    else
-      names.emplace_back(argv[k]);
-  }
+  std::vector<std::string> names, settings;
+  app.add_flag("--quick", quick, "a frame of each, to see that it runs");
+  app.add_option("--frames", frames, "frames of each (else as the scene says)");
+  app.add_option("--set", settings, "KEY=VALUE: another value in each scene, as in `meniscus evolve`");
+  app.add_option("names", names, "scenes, without .json (else all)");
+  CLI11_PARSE(app, argc, argv);
   if (quick) frames = 1;
   const fs::path directory = fs::path(MENISCUS_DATA_DIR) / "scenes";
   if (names.empty())
@@ -106,10 +103,13 @@ int main(int argc, char** argv) {
              "steps/s", "frames/s", "M tri/s", "sound", "volume", "cuts", "lost", "asleep", "the paper");
   bool all_whole = true;
   for (const std::string& name : names) {
-    const Scene scene = read_scene(directory / (name + ".json"));
+    const Scene scene = read_scene(directory / (name + ".json"), settings);
     const Result result = run(scene, frames < 0 ? scene.frames : frames);
     print(name, scene, result);
     all_whole = all_whole && result.failure.empty();
   }
   return all_whole ? 0 : 1;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "bench_scenes: {}\n", error.what());
+  return 2;
 }

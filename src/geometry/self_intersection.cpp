@@ -37,6 +37,16 @@ bool is_clearly_apart(const std::array<Point, 3>& s, const std::array<Point, 3>&
          part((a.normalized() + b.normalized()).normalized() - (c.normalized() + d.normalized()).normalized());
 }
 
+/// The same for triangles whose first two corners are the same edge: they form more than a right angle there.
+bool is_clearly_unfolded(const std::array<Point, 3>& s, const std::array<Point, 3>& t) {
+  const auto from_first = [&](const Point& p) {
+    return Eigen::Vector3d(p.x() - s[0].x(), p.y() - s[0].y(), p.z() - s[0].z());
+  };
+  const Eigen::Vector3d edge = from_first(s[1]), m = edge.cross(from_first(s[2])), n = edge.cross(from_first(t[2]));
+  const double cosine = m.dot(n);
+  return cosine < 0 && cosine * cosine > 1e-20 * m.squaredNorm() * n.squaredNorm();
+}
+
 /// The triangles that can be judged, each set of three vertices once.
 std::vector<std::uint32_t> candidates(const MeshData& data) {
   std::vector<std::pair<Triple, std::uint32_t>> keys;
@@ -65,7 +75,7 @@ bool meet_elsewhere(const std::array<Point, 3>& s, const std::array<Point, 3>& t
   if (num_shared == 1)  // they share more than the vertex if the side opposite in one meets the other
     return !is_clearly_apart(s, t) && (CGAL::do_intersect(triangle(s), Kernel::Segment_3(t[1], t[2])) ||
                                        CGAL::do_intersect(triangle(t), Kernel::Segment_3(s[1], s[2])));
-  return CGAL::orientation(s[0], s[1], s[2], t[2]) == CGAL::COPLANAR &&
+  return !is_clearly_unfolded(s, t) && CGAL::orientation(s[0], s[1], s[2], t[2]) == CGAL::COPLANAR &&
          CGAL::coplanar_orientation(s[0], s[1], s[2], t[2]) == CGAL::POSITIVE;
 }
 

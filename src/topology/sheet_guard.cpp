@@ -62,10 +62,9 @@ SheetGuard::SheetGuard(const Drop& drop, WatchedRegion region, double cell)
     : drop_(drop), region_(std::move(region)), cell_(cell) {}
 
 void SheetGuard::learn_faces() {
-  knows_faces_ = true;
-  const std::vector<FaceBox> faces = region_.faces_of(drop_);
-  for (const FaceBox& face : faces) cell_ = std::max(cell_, face.box.sizes().maxCoeff() / most_cells_along);
-  for (const FaceBox& face : faces) add_to_cells(face.face, face.box);
+  learnt_ = region_.faces_of(drop_);
+  grid_.emplace(learnt_);
+  for (const FaceBox& face : learnt_) cell_ = std::max(cell_, face.box.sizes().maxCoeff() / most_cells_along);
 }
 
 SheetGuard::Cell SheetGuard::cell_of(const Vector3d& x) const {
@@ -81,6 +80,18 @@ void SheetGuard::for_each_cell(const Eigen::AlignedBox3d& box, Visit visit) cons
       for (std::int64_t k = low[2]; k <= high[2]; ++k) visit(Cell{i, j, k});
 }
 
+template <class Visit>
+bool SheetGuard::for_each_near(const Eigen::AlignedBox3d& box, Visit visit) const {
+  if (!grid_->for_each_meeting(box, [&](const FaceBox& other) { return visit(other.face); })) return false;
+  bool go_on = true;
+  if (!added_.empty())
+    for_each_cell(box, [&](const Cell& cell) {
+      const auto list = added_.find(cell);
+      if (go_on && list != added_.end()) go_on = std::all_of(list->second.begin(), list->second.end(), visit);
+    });
+  return go_on;
+}
+
 SheetGuard::NewFace SheetGuard::face_at(std::uint32_t face) const {
   const auto& t = drop_.connectivity().triangles()[face];
   const ConstColumns x = drop_.positions();
@@ -88,14 +99,11 @@ SheetGuard::NewFace SheetGuard::face_at(std::uint32_t face) const {
 }
 
 void SheetGuard::add(std::uint32_t face) {
-  if (!knows_faces_) return;
+  if (!grid_) return;
   const NewFace known = face_at(face);
-  if (region_.covers(known.points)) add_to_cells(face, box_of_points(known.points));
-}
-
-void SheetGuard::add_to_cells(std::uint32_t face, const Eigen::AlignedBox3d& box) {
-  for_each_cell(box, [&](const Cell& cell) {
-    auto& list = faces_[cell];
+  if (!region_.covers(known.points)) return;
+  for_each_cell(box_of_points(known.points), [&](const Cell& cell) {
+    auto& list = added_[cell];
     if (list.empty() || list.back() != face) list.push_back(face);
   });
 }
@@ -104,28 +112,18 @@ bool SheetGuard::would_meet(const std::vector<NewFace>& faces, const std::vector
                             const std::vector<std::uint32_t>& removed) {
   for (std::size_t i = 0; i < faces.size(); ++i) {
     if (!region_.covers(faces[i].points)) continue;
-    if (!knows_faces_) learn_faces();
-    const Eigen::AlignedBox3d box = box_of_points(faces[i].points);
+    if (!grid_) learn_faces();
     for (std::size_t j = 0; j < i; ++j)
       if (meet(faces[i], faces[j])) return true;
-    bool found = false;
-    for_each_cell(box, [&](const Cell& cell) {
-      const auto list = faces_.find(cell);
-      if (found || list == faces_.end()) return;
-      for (const std::uint32_t g : list->second) {
-        const auto& t = drop_.connectivity().triangles()[g];
-        if (t[0] == Connectivity::removed || holds(removed, g)) continue;
-        if (holds(replaced, t[0]) || holds(replaced, t[1]) || holds(replaced, t[2])) continue;
-        const NewFace other = face_at(g);
-        const Eigen::AlignedBox3d other_box = box_of_points(other.points);
-        if (!box.intersects(other_box) || cell_of(box.min().cwiseMax(other_box.min())) != cell) continue;  // once
-        if (meet(faces[i], other)) {
-          found = true;
-          return;
-        }
-      }
+    const Eigen::AlignedBox3d box = box_of_points(faces[i].points);
+    const bool meets_none = for_each_near(box, [&](std::uint32_t g) {
+      const auto& t = drop_.connectivity().triangles()[g];
+      if (t[0] == Connectivity::removed || holds(removed, g)) return true;
+      if (holds(replaced, t[0]) || holds(replaced, t[1]) || holds(replaced, t[2])) return true;
+      const NewFace other = face_at(g);
+      return !box.intersects(box_of_points(other.points)) || !meet(faces[i], other);
     });
-    if (found) return true;
+    if (!meets_none) return true;
   }
   return false;
 }

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -26,6 +27,8 @@ class SheetGuard {
 
   /// Keeps a reference to the drop. `cell`: the length of the grid's cells, near that of an edge.
   SheetGuard(const Drop& drop, WatchedRegion region, double cell);
+  SheetGuard(const SheetGuard&) = delete;
+  SheetGuard& operator=(const SheetGuard&) = delete;
 
   /// Whether the new faces meet each other, or a face that stays: one that holds none of `replaced` vertices, or is
   /// not among the `removed` faces.
@@ -49,14 +52,18 @@ class SheetGuard {
   template <class Visit>
   void for_each_cell(const Eigen::AlignedBox3d& box, Visit visit) const;
   void learn_faces();
-  void add_to_cells(std::uint32_t face, const Eigen::AlignedBox3d& box);
+  /// Calls visit(face) for the known faces whose boxes may meet one, some twice, until it returns false; then returns
+  /// false too.
+  template <class Visit>
+  bool for_each_near(const Eigen::AlignedBox3d& box, Visit visit) const;
   NewFace face_at(std::uint32_t face) const;
 
   const Drop& drop_;
   WatchedRegion region_;
   double cell_;
-  bool knows_faces_ = false;  // most calls of remeshing never ask
-  std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> faces_;
+  std::vector<FaceBox> learnt_;  // where the faces were when an operation first asked: most calls of remeshing never do
+  std::optional<FaceGrid> grid_;
+  std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> added_;  // those made or moved since
 };
 
 }  // namespace meniscus

@@ -108,7 +108,7 @@ std::vector<Drop> change_topology(Drop drop, const Eigen::Matrix3Xd& before, con
   if (options.remesh) {
     watch_faces(drop, drop.workspace().violent_faces);
     watch_bends(drop);
-    watch_thin_sheets(drop, drop.workspace().geometry.area(), options.band.edge_max);
+    watch_thin_sheets(drop, drop.workspace().geometry.area(), options.band);
   }
   if (options.remesh && may_fold(drop, merge_options(options))) {
     MergeReport merge;

@@ -19,6 +19,9 @@ constexpr double opposite = -0.3;
 /// from the solid that the surface beside the contact line may pass between them.
 constexpr double cosine_of_bend = 0.8660254037844387;
 
+/// A place is thin that is thinner than so many radii of the ball of the drop's volume.
+constexpr double thin = 0.5;
+
 /// A drop with so many times the area of the ball of its volume is no ball, however small.
 constexpr double deformed = 1.3;
 
@@ -27,9 +30,9 @@ Vector3d area_vector(const MeshView& mesh, const Triangle& t) {
   return (Vector3d(mesh.points.col(t[1])) - a).cross(Vector3d(mesh.points.col(t[2])) - a);
 }
 
-/// The watch does not end where another sheet of the surface is within edge_max with air between the two, or within
-/// edge_min with liquid: vertices about to be forgotten are watched on, and those of the other sheet with them. Faces on
-/// solids are no sheets.
+/// The watch does not end where another sheet of the surface is within edge_max: vertices about to be forgotten are
+/// watched on, and those of the other sheet with them. With liquid between, close is what is thin for a drop of its
+/// volume: the sides of a small one are no sheets, nor are faces on solids.
 void watch_close_sheets(Drop& drop, const EdgeBand& band) {
   const MeshView mesh = view_of(std::as_const(drop));
   std::uint8_t* watch = drop.seam_watch();
@@ -61,6 +64,8 @@ void watch_close_sheets(Drop& drop, const EdgeBand& band) {
     center[k] = faces[k].box.center();
     faces[k].face = k;
   }
+  const double ball_radius = std::cbrt(0.75 * drop.target_volume() / M_PI);
+  const double thickest = std::clamp(thin * ball_radius, band.edge_min, band.edge_max);
   const FaceGrid grid(faces);
   std::vector<std::uint32_t> kept;
   std::size_t k = 0;
@@ -70,7 +75,7 @@ void watch_close_sheets(Drop& drop, const EdgeBand& band) {
     const Eigen::AlignedBox3d& box = faces[k].box;
     grid.for_each_meeting({box.min() - margin, box.max() + margin}, [&](const FaceBox& other) {
       if (!(normal[k].dot(normal[other.face]) < opposite)) return true;
-      if (normal[k].dot(center[other.face] - center[k]) < -band.edge_min) return true;  // liquid between, and not thin
+      if (normal[k].dot(center[other.face] - center[k]) < -thickest) return true;
       const Triangle& t = mesh.triangles[face_at[other.face]];
       if (boolean_parts::share_a_vertex(s, t)) return true;
       kept.insert(kept.end(), s.begin(), s.end());
@@ -79,6 +84,37 @@ void watch_close_sheets(Drop& drop, const EdgeBand& band) {
     });
   }
   for (const auto v : kept) watch[v] = std::max(watch[v], violent_watched_calls);
+}
+
+/// Watches where free faces that look away from each other have less than `thickness` of liquid between them.
+void watch_thin_places(Drop& drop, double thickness) {
+  const MeshView mesh = view_of(std::as_const(drop));
+  const auto is_free = [&](std::uint32_t v) { return !is_colliding(drop.contact()[v]); };
+  std::vector<FaceBox> inward;  // each face and what is under it
+  std::vector<std::uint32_t> face_at;
+  std::vector<Vector3d> normal;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    if (t[0] == Connectivity::removed || !is_free(t[0]) || !is_free(t[1]) || !is_free(t[2])) continue;
+    const Vector3d n = area_vector(mesh, t).stableNormalized();
+    FaceBox box{{}, static_cast<std::uint32_t>(inward.size())};
+    for (const auto v : t) {
+      box.box.extend(Vector3d(mesh.points.col(v)));
+      box.box.extend(Vector3d(mesh.points.col(v) - 0.5 * thickness * n));
+    }
+    inward.push_back(box);
+    face_at.push_back(f);
+    normal.push_back(n);
+  }
+  std::uint8_t* const watch = drop.seam_watch();
+  FaceGrid(inward).for_each_pair([&](const FaceBox& a, const FaceBox& b) {
+    if (!(normal[a.face].dot(normal[b.face]) < opposite)) return true;
+    const Triangle &s = mesh.triangles[face_at[a.face]], &t = mesh.triangles[face_at[b.face]];
+    if (boolean_parts::share_a_vertex(s, t)) return true;
+    for (const Triangle* face : {&s, &t})
+      for (const auto v : *face) watch[v] = std::max(watch[v], violent_watched_calls);
+    return true;
+  });
 }
 
 }  // namespace
@@ -106,13 +142,14 @@ void watch_bends(Drop& drop) {
   }
 }
 
-void watch_thin_sheets(Drop& drop, double area, double edge_max) {
+void watch_thin_sheets(Drop& drop, double area, const EdgeBand& band) {
   const double volume = drop.target_volume(), ball_area = std::cbrt(36 * M_PI * volume * volume);
-  const auto is_thin_sheet = [&](double sides) {
-    return sides > deformed * ball_area && 2 * volume < edge_max * sides;
-  };
   // What lies on a solid and what covers it bound no sheet with air on both sides.
-  if (!is_thin_sheet(area) || !is_thin_sheet(area - 2 * wetted_area(drop))) return;
+  const double least_sides = deformed * ball_area;
+  if (!(area > least_sides)) return;
+  const double sides = area - 2 * wetted_area(drop);
+  if (!(sides > least_sides)) return;
+  if (!(2 * volume < band.edge_max * sides)) return watch_thin_places(drop, band.edge_min);
   std::uint8_t* const watch = drop.seam_watch();
   for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
     if (!is_colliding(drop.contact()[v])) watch[v] = std::max(watch[v], violent_watched_calls);

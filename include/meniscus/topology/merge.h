@@ -54,9 +54,10 @@ void watch_faces(Drop& drop, const std::vector<std::uint8_t>& marked);
 /// surface beside the contact line.
 void watch_bends(Drop& drop);
 
-/// Watches all free vertices of a drop that is a sheet with air on both sides, thinner than edge_max (cm): its two
-/// sides may pass through each other with nothing violent in it. `area`: that of the surface (cm^2).
-void watch_thin_sheets(Drop& drop, double area, double edge_max);
+/// Watches where a drop that is no ball has air on both sides and is thin: its two sides may pass through each other with
+/// nothing violent in it. All free vertices if it is thinner than edge_max in the mean, else those of faces with less than
+/// edge_min of liquid between them. `area`: that of the surface (cm^2).
+void watch_thin_sheets(Drop& drop, double area, const EdgeBand& band);
 
 /// Whether mend_folds has anything to look at: watched vertices, or a drop at all with options.self_merge.
 bool may_fold(const Drop& drop, const MergeOptions& options);

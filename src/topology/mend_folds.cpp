@@ -176,6 +176,7 @@ class TakeBack {
       : drop_(drop),
         finder_(finder),
         solid_velocity_(before.solid_velocity),
+        before_(before.positions),
         sound_(carried_along(std::as_const(drop), before, velocity_)),
         is_back_(drop.num_rows(), 0) {}
 
@@ -196,6 +197,11 @@ class TakeBack {
       }
     }
     for (std::uint32_t v = 0; v < is_back_.size(); ++v) take(v);
+    if (of_kind(folds).empty()) return;
+    // Sheets that touch but for rounding may not bear to be carried along.
+    sound_ = before_;
+    drop_.positions() = before_;
+    for (const auto v : taken_) finder_.move(v);
   }
   const std::vector<std::uint32_t>& taken() const { return taken_; }
 
@@ -243,7 +249,8 @@ class TakeBack {
   FoldFinder& finder_;
   RigidMotion velocity_;
   const Eigen::Vector3d solid_velocity_;
-  const Eigen::Matrix3Xd sound_;
+  const Eigen::Matrix3Xd& before_;
+  Eigen::Matrix3Xd sound_;  // where what is taken goes
   std::vector<std::uint8_t> is_back_;
   std::vector<std::uint32_t> taken_;
 };

@@ -34,7 +34,8 @@ INSTANTIATE_TEST_SUITE_P(Regressions, FailedScenes,
                                          "wet_faces_lie_on_each_other", "drop_meets_source_from_behind",
                                          "offset_pushes_film_through", "dewetting_lays_films_down", "wet_faces_bend",
                                          "convex_solid_through_film", "sheets_meet", "drop_stretches",
-                                         "volume_after_remeshing", "stream_hits_drop", "source_dries", "disc_thins"),
+                                         "volume_after_remeshing", "stream_hits_drop", "source_dries", "disc_thins",
+                                         "sheets_touch_on_moving_plane"),
                          [](const auto& scene) { return scene.param; });
 
 }  // namespace

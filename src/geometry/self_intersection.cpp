@@ -53,7 +53,9 @@ std::vector<std::uint32_t> candidates(const MeshData& data) {
   for (std::uint32_t t = 0; t < data.triangles.size(); ++t) {
     Triple key = data.triangles[t];
     if (!is_measurable(data, key)) continue;
-    if (CGAL::collinear(cgal_point(data.points, key[0]), cgal_point(data.points, key[1]), cgal_point(data.points, key[2]))) continue;
+    if (CGAL::collinear(cgal_point(data.points, key[0]), cgal_point(data.points, key[1]),
+                        cgal_point(data.points, key[2])))
+      continue;
     std::sort(key.begin(), key.end());
     keys.emplace_back(key, t);
   }

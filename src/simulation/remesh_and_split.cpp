@@ -155,7 +155,8 @@ std::vector<Drop> remesh_and_split(Drop drop, const Eigen::Matrix3Xd& before, co
                                    StageClock& clock, StepReport& report) {
   const std::uint64_t version = drop.topology_version();
   const char* after = nullptr;
-  std::vector<Drop> pieces = change_topology(std::move(drop), before, solids, time, dt, options, remesher, clock, report, after);
+  std::vector<Drop> pieces =
+      change_topology(std::move(drop), before, solids, time, dt, options, remesher, clock, report, after);
   report.rounded += round_off_knots(pieces, version, solids, time, options.band);
   if (options.verify != Verify::nothing)
     for (const Drop& piece : pieces) verify_topology(piece, after);

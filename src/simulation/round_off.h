@@ -18,9 +18,9 @@ bool is_speck(const Drop& drop, const EdgeBand& band);
 /// operator can step it any more does not depend on its shape.
 bool has_no_shape(const Drop& drop, const EdgeBand& band);
 
-/// The ball that holds a drop's target volume: what is left of one without a shape that no operator can step any more. It is where
-/// the mean of the vertices gets to in dt (s) with their mean velocity, clear of the solids at `time` (s), and
-/// touches nothing. Keeps that velocity, id, target volume and inflow.
+/// The ball that holds a drop's target volume: what is left of one without a shape that no operator can step any more.
+/// It is where the mean of the vertices gets to in dt (s) with their mean velocity, clear of the solids at `time` (s),
+/// and touches nothing. Keeps that velocity, id, target volume and inflow.
 Drop rounded_off(const Drop& drop, const std::vector<Solid>& solids, double time, double dt, const EdgeBand& band);
 
 /// Rounds off those of a substep's pieces that are specks and meet themselves, are turned over or have but four

@@ -279,7 +279,8 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
   const int id = drop.id();
   const double volume = options.level == Level::paper ? drop.volume() : 0;
   const Eigen::Matrix3Xd& before = drop.workspace().kept.positions();
-  std::vector<Drop> pieces = remesh_and_split(std::move(drop), before, solids, time, dt, options, remesher, clock, report);
+  std::vector<Drop> pieces =
+      remesh_and_split(std::move(drop), before, solids, time, dt, options, remesher, clock, report);
   if (options.level == Level::paper) check_not_crumpled(pieces, volume, id);
   return pieces;
 }

@@ -163,9 +163,9 @@ class FoldFinder {
   const Drop& drop_;
   std::vector<FaceBox> faces_;
   const FaceGrid grid_;
-  std::vector<std::uint32_t> place_;  // of a face in the list
+  std::vector<std::uint32_t> place_;                  // of a face in the list
   std::vector<std::uint8_t> has_moved_, is_waiting_;  // has_moved_: or is not in the grid
-  std::vector<std::uint32_t> waiting_;  // places of faces that have moved since the last look
+  std::vector<std::uint32_t> waiting_;                // places of faces that have moved since the last look
   std::vector<Pair> meeting_;
 };
 

@@ -50,8 +50,8 @@ bool meet(const SheetGuard::NewFace& s, const SheetGuard::NewFace& t) {
   const auto at = [&](std::uint32_t v) {
     const auto k = in_s(v);
     return to_point(k < 3 ? s.points[static_cast<std::size_t>(k)]
-                          : t.points[static_cast<std::size_t>(
-                                std::find(t.vertices.begin(), t.vertices.end(), v) - t.vertices.begin())]);
+                          : t.points[static_cast<std::size_t>(std::find(t.vertices.begin(), t.vertices.end(), v) -
+                                                              t.vertices.begin())]);
   };
   return meet_elsewhere(at, s.vertices, t.vertices);
 }

@@ -152,8 +152,8 @@ TEST(Checkpoint, AMeshOfTwoEdgesBetweenTheSameVerticesIsRefused) {
   struct Corner {
     std::uint32_t from, edge;
   };
-  const Corner faces[][3] = {{{0, 0}, {1, 2}, {2, 3}}, {{0, 4}, {3, 5}, {1, 1}},  {{1, 5}, {3, 6}, {2, 2}},
-                             {{0, 3}, {2, 6}, {3, 4}}, {{1, 0}, {0, 7}, {4, 8}},  {{0, 1}, {1, 9}, {5, 10}},
+  const Corner faces[][3] = {{{0, 0}, {1, 2}, {2, 3}},   {{0, 4}, {3, 5}, {1, 1}}, {{1, 5}, {3, 6}, {2, 2}},
+                             {{0, 3}, {2, 6}, {3, 4}},   {{1, 0}, {0, 7}, {4, 8}}, {{0, 1}, {1, 9}, {5, 10}},
                              {{0, 10}, {5, 11}, {4, 7}}, {{5, 9}, {1, 8}, {4, 11}}};
   MeshArrays arrays;
   arrays.vertex_halfedge.resize(6);

@@ -180,7 +180,7 @@ TEST(PressureLevel, TurningTheWorldTurnsTheResult) {
   const Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const auto after = [](const Matrix3d& R) {
     Scene scene = scene_on_plate(60, 90, 0.01);  // no edge leaves the band in these steps: ties would be broken by
-    scene.mesh.edge_max = 0.2;                    // rounding, and differ
+    scene.mesh.edge_max = 0.2;                   // rounding, and differ
     scene.drops.clear();
     scene.solids[0].normal = R * Vector3d::UnitZ();
     scene.gravity = R * Vector3d(300, 0, -900);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "meniscus/core/types.h"
 #include "meniscus/core/mesh_data.h"
+#include "meniscus/core/types.h"
 
 #include <algorithm>
 #include <array>

@@ -16,7 +16,7 @@ struct ExternalForcesOptions {
   bool friction_per_step = false;
   /// Whether vertices inside the wetted area stay where they are on the solid (no slip).
   bool no_slip = true;
-  double touching_distance = 0;  ///< cm: vertices this near to a solid are on it
+  double touching_distance = 0;                                   ///< cm: vertices this near to a solid are on it
   double longest_edge = std::numeric_limits<double>::infinity();  ///< cm: for Solid::rim_point
 };
 

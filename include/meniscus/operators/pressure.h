@@ -14,12 +14,12 @@ namespace meniscus {
 struct PressureOptions {
   Eigen::Vector3d gravity{0, 0, -981};  ///< cm/s^2
   Liquid liquid;
-  double edge_min = 0.04;            ///< cm: what counts as a small displacement is a share of it, > 0
+  double edge_min = 0.04;  ///< cm: what counts as a small displacement is a share of it, > 0
   double edge_max = std::numeric_limits<double>::infinity();  ///< cm: the longest edge, for Solid::rim_point
-  double contact_line_friction = 1;  ///< xi, g/(cm s): what a contact line that moves meets
-  double tolerance = 1e-4;           ///< of the conjugate gradients, relative to the right-hand side
-  int max_iterations = 1000;         ///< of the conjugate gradients
-  double smoothing = 0.3;            ///< share of the way along the surface to the ring's centroid, a substep; 0: none
+  double contact_line_friction = 1;                           ///< xi, g/(cm s): what a contact line that moves meets
+  double tolerance = 1e-4;    ///< of the conjugate gradients, relative to the right-hand side
+  int max_iterations = 1000;  ///< of the conjugate gradients
+  double smoothing = 0.3;     ///< share of the way along the surface to the ring's centroid, a substep; 0: none
 };
 
 /// What a substep did.

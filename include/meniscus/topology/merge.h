@@ -54,9 +54,9 @@ void watch_faces(Drop& drop, const std::vector<std::uint8_t>& marked);
 /// surface beside the contact line.
 void watch_bends(Drop& drop);
 
-/// Watches where a drop that is no ball has air on both sides and is thin: its two sides may pass through each other with
-/// nothing violent in it. All free vertices if it is thinner than edge_max in the mean, else those of faces with less than
-/// edge_min of liquid between them. `area`: that of the surface (cm^2).
+/// Watches where a drop that is no ball has air on both sides and is thin: its two sides may pass through each other
+/// with nothing violent in it. All free vertices if it is thinner than edge_max in the mean, else those of faces with
+/// less than edge_min of liquid between them. `area`: that of the surface (cm^2).
 void watch_thin_sheets(Drop& drop, double area, const EdgeBand& band);
 
 /// Whether mend_folds has anything to look at: watched vertices, or a drop at all with options.self_merge.
@@ -64,7 +64,7 @@ bool may_fold(const Drop& drop, const MergeOptions& options);
 
 /// Where a drop's vertices were when it was last sound, and what the solid that holds it has done since.
 struct LastSound {
-  const Eigen::Matrix3Xd& positions;                            ///< 3 x rows, cm
+  const Eigen::Matrix3Xd& positions;                         ///< 3 x rows, cm
   Eigen::Vector3d solid_moved = Eigen::Vector3d::Zero();     ///< cm
   Eigen::Vector3d solid_velocity = Eigen::Vector3d::Zero();  ///< cm/s
 };
@@ -78,8 +78,8 @@ struct LastSound {
 /// if there is no fold. Nothing, too, if the fold cannot be united, as one between neighbouring faces:
 /// vertices that make the surface meet itself go back to where they were when the drop was last sound (`before`),
 /// carried along by its rigid motion and with its velocity; more around them if that is not enough. Then they are
-/// smoothed as far as nothing meets, so that the next step does not end the same way. A drop on a solid is carried along
-/// by that; of one off solids centre of mass and momenta stay.
+/// smoothed as far as nothing meets, so that the next step does not end the same way. A drop on a solid is carried
+/// along by that; of one off solids centre of mass and momenta stay.
 std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before, const MergeOptions& options,
                                             Remesher& remesher, MergeReport& report);
 

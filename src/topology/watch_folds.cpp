@@ -86,6 +86,21 @@ void watch_close_sheets(Drop& drop, const EdgeBand& band) {
   for (const auto v : kept) watch[v] = std::max(watch[v], violent_watched_calls);
 }
 
+/// Somewhere beside the contact line the surface hangs over the solid by 30 degrees or more: so does the rim of a film
+/// that runs back from where it does not like to be, and its top and underside have air on both sides.
+bool overhangs(const Drop& drop) {
+  const MeshView mesh = view_of(drop);
+  for (const Triangle& t : mesh.triangles) {
+    if (t[0] == Connectivity::removed) continue;
+    const auto on_line = std::find_if(t.begin(), t.end(), [&](auto v) { return drop.contact()[v] == Contact::line; });
+    const auto free = [&](std::uint32_t v) { return !is_colliding(drop.contact()[v]); };
+    if (on_line == t.end() || std::none_of(t.begin(), t.end(), free)) continue;
+    const Vector3d n = area_vector(mesh, t);
+    if (n.dot(drop.contact_normals().col(*on_line)) < -0.5 * n.norm()) return true;
+  }
+  return false;
+}
+
 /// Watches where free faces that look away from each other have less than `thickness` of liquid between them.
 void watch_thin_places(Drop& drop, double thickness) {
   const MeshView mesh = view_of(std::as_const(drop));
@@ -148,7 +163,10 @@ void watch_thin_sheets(Drop& drop, double area, const EdgeBand& band) {
   const double least_sides = deformed * ball_area;
   if (!(area > least_sides)) return;
   const double sides = area - 2 * wetted_area(drop);
-  if (!(sides > least_sides)) return;
+  if (!(sides > least_sides)) {
+    if (overhangs(drop)) watch_thin_places(drop, band.edge_min);
+    return;
+  }
   if (!(2 * volume < band.edge_max * sides)) return watch_thin_places(drop, band.edge_min);
   std::uint8_t* const watch = drop.seam_watch();
   for (std::uint32_t v = 0; v < drop.num_rows(); ++v)

@@ -116,6 +116,7 @@ std::vector<Drop> change_topology(Drop drop, const Eigen::Matrix3Xd& before, con
     report += merge;
     clock.done(Stage::merge);
     if (mended) {
+      for (Drop& piece : *mended) give_back_volume(piece, options);
       after = "a fold was united";
       return *std::move(mended);
     }

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace meniscus {
 namespace {
@@ -201,6 +202,22 @@ int num_substeps(Drop& drop, const std::vector<Solid>& solids, double time, doub
 /// Films lower than this (in lengths of edge_min) come down no further and have no volume to give.
 constexpr double low_film = 0.05;
 
+/// The mean place (cm) and velocity (cm/s) of a drop's vertices.
+struct Means {
+  Vector3d place, velocity;
+};
+
+Means means_of(const Drop& drop) {
+  return {mean_over_vertices(drop, drop.positions()), mean_over_vertices(drop, drop.velocities())};
+}
+
+/// About a speck neither areas nor what the volume's correction moves balance, and it would drive itself.
+void restore_means(Drop& speck, const Means& means) {
+  const Means now = means_of(speck);
+  speck.positions().colwise() += means.place - now.place;
+  speck.velocities().colwise() += means.velocity - now.velocity;
+}
+
 /// The operators of one substep, in the order of the paper's Figure 1. Returns by what share of the target the volume
 /// was off before its correction.
 double deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt, const StepOptions& options,
@@ -210,6 +227,8 @@ double deform(Drop& drop, const std::vector<Solid>& solids, double time, double 
   const bool jet = is_jet(drop, solids, time, options);
   const ExternalForcesReport forces =
       apply_external_forces(drop, solids, time, dt, external_forces_options(drop, jet, options));
+  std::optional<Means> in_flight;
+  if (!jet && forces.colliding == 0 && is_speck(drop, options.band)) in_flight = means_of(drop);
   clock.done(Stage::external_forces);
 
   SurfaceGeometry& geometry = drop.workspace().geometry;
@@ -243,6 +262,7 @@ double deform(Drop& drop, const std::vector<Solid>& solids, double time, double 
   // What lifting films adds is taken from elsewhere, and what sank in by that is lifted for good.
   if (forces.colliding > 0) lift_films(drop, solids, time, low_film * options.band.edge_min);
   const VolumeCorrectionReport volume = correct_volume(drop, geometry, dt, volume_options(options, drop));
+  if (in_flight) restore_means(drop, *in_flight);
   report.limited_volume += volume.limited;
   if (!std::isnan(volume.relative_error))
     report.worst_volume_error = std::max(report.worst_volume_error, std::abs(volume.relative_error));

@@ -21,9 +21,7 @@ Kernel::Triangle_3 triangle(const std::array<Point, 3>& t) { return {t[0], t[1],
 /// Whether one of two planes through the first corner of both triangles, which they share, clearly parts the
 /// rest of them: the quick answer to most pairs. Says no if rounding could matter.
 bool is_clearly_apart(const std::array<Point, 3>& s, const std::array<Point, 3>& t) {
-  const auto from_first = [&](const Point& p) {
-    return Eigen::Vector3d(p.x() - s[0].x(), p.y() - s[0].y(), p.z() - s[0].z());
-  };
+  const auto from_first = [&](const Point& p) -> Eigen::Vector3d { return to_eigen(p) - to_eigen(s[0]); };
   const Eigen::Vector3d a = from_first(s[1]), b = from_first(s[2]), c = from_first(t[1]), d = from_first(t[2]);
   const auto part = [&](const Eigen::Vector3d& m) {
     const double least = 1e-28 * m.squaredNorm();
@@ -39,9 +37,7 @@ bool is_clearly_apart(const std::array<Point, 3>& s, const std::array<Point, 3>&
 
 /// The same for triangles whose first two corners are the same edge: they form more than a right angle there.
 bool is_clearly_unfolded(const std::array<Point, 3>& s, const std::array<Point, 3>& t) {
-  const auto from_first = [&](const Point& p) {
-    return Eigen::Vector3d(p.x() - s[0].x(), p.y() - s[0].y(), p.z() - s[0].z());
-  };
+  const auto from_first = [&](const Point& p) -> Eigen::Vector3d { return to_eigen(p) - to_eigen(s[0]); };
   const Eigen::Vector3d edge = from_first(s[1]), m = edge.cross(from_first(s[2])), n = edge.cross(from_first(t[2]));
   const double cosine = m.dot(n);
   return cosine < 0 && cosine * cosine > 1e-20 * m.squaredNorm() * n.squaredNorm();

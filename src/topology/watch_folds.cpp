@@ -57,11 +57,10 @@ void watch_close_sheets(Drop& drop, const EdgeBand& band) {
                              [&](const FaceBox& f) { return !has(mesh.triangles[f.face], is_free); }),
               faces.end());
   std::vector<std::uint32_t> face_at(faces.size());
-  std::vector<Vector3d> normal(faces.size()), center(faces.size());
+  std::vector<Vector3d> normal(faces.size());
   for (std::uint32_t k = 0; k < faces.size(); ++k) {
     face_at[k] = faces[k].face;
     normal[k] = area_vector(mesh, mesh.triangles[faces[k].face]).stableNormalized();
-    center[k] = faces[k].box.center();
     faces[k].face = k;
   }
   const double ball_radius = std::cbrt(0.75 * drop.target_volume() / M_PI);
@@ -75,7 +74,7 @@ void watch_close_sheets(Drop& drop, const EdgeBand& band) {
     const Eigen::AlignedBox3d& box = faces[k].box;
     grid.for_each_meeting({box.min() - margin, box.max() + margin}, [&](const FaceBox& other) {
       if (!(normal[k].dot(normal[other.face]) < opposite)) return true;
-      if (normal[k].dot(center[other.face] - center[k]) < -thickest) return true;
+      if (normal[k].dot(other.box.center() - box.center()) < -thickest) return true;
       const Triangle& t = mesh.triangles[face_at[other.face]];
       if (boolean_parts::share_a_vertex(s, t)) return true;
       kept.insert(kept.end(), s.begin(), s.end());

@@ -2,6 +2,7 @@
 #include "boolean_seam.h"
 
 #include "meniscus/geometry/self_intersection.h"
+#include "sorted_boxes.h"
 
 #include <CGAL/Exact_rational.h>
 
@@ -236,16 +237,9 @@ std::optional<Seam> find_seam(const MeshView& a, const std::vector<FaceBox>& fac
   return finish(collector, a, b);
 }
 
-bool faces_meet(const MeshView& mesh, std::uint32_t f, std::uint32_t g) {
-  const Triangle &s = mesh.triangles[f], &t = mesh.triangles[g];
-  if (share_a_vertex(s, t)) return !meet_as_neighbours(mesh, f, g);
-  return !all_on_one_side(sides(mesh, t, mesh, s)) && CGAL::do_intersect(triangle_of(mesh, f), triangle_of(mesh, g));
-}
-
 std::optional<Seam> find_self_seam(const MeshView& mesh, const std::vector<FaceBox>& faces) {
   Collector collector(mesh, mesh);
-  const FaceGrid grid(faces);
-  const bool in_general_position = grid.for_each_pair([&](const FaceBox& f, const FaceBox& g) {
+  const bool in_general_position = SortedBoxes(faces).for_each_pair([&](const FaceBox& f, const FaceBox& g) {
     return share_a_vertex(mesh.triangles[f.face], mesh.triangles[g.face])
                ? meet_as_neighbours(mesh, f.face, g.face)
                : collector.look_at(f.face, g.face) && collector.look_at(g.face, f.face);

@@ -37,9 +37,6 @@ struct Seam {
 std::optional<Seam> find_seam(const MeshView& a, const std::vector<FaceBox>& faces_a, const MeshView& b,
                               const std::vector<FaceBox>& faces_b);
 
-/// Whether two faces of a surface meet elsewhere than in what they share (exact).
-bool faces_meet(const MeshView& mesh, std::uint32_t f, std::uint32_t g);
-
 /// The same for one surface that crosses itself: every crossing is there twice, as an edge of A and as an edge
 /// of B, and so is every segment. Nothing, too, if faces that share a vertex meet elsewhere.
 std::optional<Seam> find_self_seam(const MeshView& mesh, const std::vector<FaceBox>& faces);

@@ -36,22 +36,16 @@ bool FaceGrid::try_cells(double cell_size) {
   }
   cells_ = cells.cast<int>();
   first_.assign(static_cast<std::size_t>(cells.prod()) + 1, 0);
-  const auto for_each_cell = [&](const FaceBox& box, auto visit) {
-    const Eigen::Array3i low = cell(box.box.min()), high = cell(box.box.max());
-    for (int z = low.z(); z <= high.z(); ++z)
-      for (int y = low.y(); y <= high.y(); ++y)
-        for (int x = low.x(); x <= high.x(); ++x) visit(index(x, y, z));
-  };
   std::size_t count = 0;
   for (const auto& box : boxes_)
     count += static_cast<std::size_t>((cell(box.box.max()) - cell(box.box.min()) + 1).prod());
   if (count > most_per_box * boxes_.size() && first_.size() > 2) return false;
-  for (const auto& box : boxes_) for_each_cell(box, [&](std::size_t c) { ++first_[c + 1]; });
+  for (const auto& box : boxes_) for_each_cell(box.box, [&](std::size_t c) { ++first_[c + 1]; });
   for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
   entries_.resize(first_.back());
   std::vector<std::uint32_t> at(first_.begin(), first_.end() - 1);
   for (std::uint32_t k = 0; k < boxes_.size(); ++k)
-    for_each_cell(boxes_[k], [&](std::size_t c) { entries_[at[c]++] = k; });
+    for_each_cell(boxes_[k].box, [&](std::size_t c) { entries_[at[c]++] = k; });
   return true;
 }
 

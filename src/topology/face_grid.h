@@ -42,28 +42,16 @@ class FaceGrid {
     return true;
   }
 
-  /// Calls visit(a, b) for every two boxes that meet, a before b in the list, each pair once, until it returns false;
-  /// then returns false too. The order depends on nothing but the boxes.
+  /// Calls visit(index) for every cell that a box reaches into; what lies outside of the grid counts to its outermost
+  /// cells.
   template <class Visit>
-  bool for_each_pair(Visit visit) const {
-    if (boxes_.empty()) return true;
-    std::vector<FaceBox> here;
-    std::size_t c = 0;
-    for (int z = 0; z < cells_.z(); ++z)
-      for (int y = 0; y < cells_.y(); ++y)
-        for (int x = 0; x < cells_.x(); ++x, ++c) {
-          here.clear();
-          for (std::uint32_t k = first_[c]; k < first_[c + 1]; ++k) here.push_back(boxes_[entries_[k]]);
-          for (std::size_t j = 1; j < here.size(); ++j)
-            for (std::size_t i = 0; i < j; ++i) {
-              const auto &a = here[i].box, &b = here[j].box;
-              if (!a.intersects(b)) continue;
-              const Eigen::Array3i home = cell(a.min().cwiseMax(b.min()));  // so that each is seen once
-              if (home.x() == x && home.y() == y && home.z() == z && !visit(here[i], here[j])) return false;
-            }
-        }
-    return true;
+  void for_each_cell(const Eigen::AlignedBox3d& box, Visit visit) const {
+    const Eigen::Array3i low = cell(box.min()), high = cell(box.max());
+    for (int z = low.z(); z <= high.z(); ++z)
+      for (int y = low.y(); y <= high.y(); ++y)
+        for (int x = low.x(); x <= high.x(); ++x) visit(index(x, y, z));
   }
+  std::size_t num_cells() const { return first_.empty() ? 1 : first_.size() - 1; }
 
  private:
   Eigen::Array3i cell(const Eigen::Vector3d& p) const {

@@ -3,7 +3,9 @@
 #include "face_grid.h"
 #include "meniscus/geometry/rigid_motion.h"
 #include "merge_parts.h"
+#include "placed_face.h"
 #include "sheet_guard.h"
+#include "sorted_boxes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +40,14 @@ constexpr double largest_volume_error = 0.2;
 /// else it would go further off with every substep.
 constexpr double most_left_off = 0.05;
 
+std::vector<PlacedTriangle> placed_faces(const Drop& drop, const std::vector<FaceBox>& faces) {
+  const MeshView mesh = view_of(drop);
+  std::vector<PlacedTriangle> placed;
+  placed.reserve(faces.size());
+  for (const FaceBox& face : faces) placed.push_back(placed_face(mesh, face.face));
+  return placed;
+}
+
 enum class Folds { between_neighbours, all };
 
 /// Moves a vertex halfway to the mean of its neighbours, or less, if its faces then meet nothing.
@@ -62,9 +72,9 @@ void relax(Drop& drop, std::uint32_t v, SheetGuard& guard) {
 }
 
 /// Relaxes vertices one after another.
-void relax(Drop& drop, const std::vector<std::uint32_t>& vertices, const WatchedRegion& region, double cell) {
+void relax(Drop& drop, const std::vector<std::uint32_t>& vertices, const WatchedRegion& region) {
   if (vertices.empty()) return;
-  SheetGuard guard(drop, region, cell);
+  SheetGuard guard(drop, region);
   for (const auto v : vertices)
     if (!is_colliding(drop.contact()[v])) relax(drop, v, guard);
 }
@@ -78,14 +88,13 @@ class FoldFinder {
   FoldFinder(const Drop& drop, std::vector<FaceBox> faces)
       : drop_(drop),
         faces_(std::move(faces)),
-        grid_(faces_),
         place_(drop.connectivity().triangles().size(), none),
         has_moved_(faces_.size(), 0),
         is_waiting_(faces_.size(), 0) {
+    const std::vector<PlacedTriangle> placed = placed_faces(drop_, faces_);
     for (std::uint32_t k = 0; k < faces_.size(); ++k) place_[faces_[k].face] = k;
-    const MeshView mesh = view_of(drop_);
-    grid_.for_each_pair([&](const FaceBox& f, const FaceBox& g) {
-      if (boolean_parts::faces_meet(mesh, f.face, g.face))
+    SortedBoxes(faces_).for_each_pair([&](const FaceBox& f, const FaceBox& g) {
+      if (meet(placed[place_[f.face]], placed[place_[g.face]]))
         meeting_.push_back({std::min(f.face, g.face), std::max(f.face, g.face)});
       return true;
     });
@@ -125,9 +134,10 @@ class FoldFinder {
     for (const std::uint32_t place : waiting_) box.extend(box_now(faces_[place].face));
     for (const FaceBox& near : faces_in(view_of(drop_), box)) place_of(near.face);
   }
-  /// The grid knows faces where they were first; those that have moved since, or are new, are in one of their own.
+  /// The grid knows faces where they were at first; those that have moved since, or are new, are in one of their own.
   void look_again() {
     add_faces_near_waiting();
+    if (!grid_) grid_.emplace(faces_);
     const MeshView mesh = view_of(drop_);
     const auto waits = [&](std::uint32_t face) { return is_waiting_[place_[face]] != 0; };
     meeting_.erase(
@@ -139,12 +149,13 @@ class FoldFinder {
     const FaceGrid moved_grid(moved);
     for (const std::uint32_t place : waiting_) {
       const std::uint32_t f = faces_[place].face;
+      const PlacedTriangle placed = placed_face(mesh, f);
       const auto test = [&](std::uint32_t g) {
-        if (boolean_parts::faces_meet(mesh, f, g)) meeting_.push_back({std::min(f, g), std::max(f, g)});
+        if (meet(placed, placed_face(mesh, g))) meeting_.push_back({std::min(f, g), std::max(f, g)});
         return true;
       };
       const Eigen::AlignedBox3d box = box_now(f);
-      grid_.for_each_meeting(box, [&](const FaceBox& g) { return has_moved_[place_[g.face]] != 0 || test(g.face); });
+      grid_->for_each_meeting(box, [&](const FaceBox& g) { return has_moved_[place_[g.face]] != 0 || test(g.face); });
       moved_grid.for_each_meeting(box, [&](const FaceBox& g) {
         const bool is_seen_from_there = waits(g.face) && g.face < f;
         return g.face == f || is_seen_from_there || test(g.face);
@@ -161,8 +172,8 @@ class FoldFinder {
   }
 
   const Drop& drop_;
-  std::vector<FaceBox> faces_;
-  const FaceGrid grid_;
+  std::vector<FaceBox> faces_;                        // where they were at first
+  std::optional<FaceGrid> grid_;                      // from the first move on
   std::vector<std::uint32_t> place_;                  // of a face in the list
   std::vector<std::uint8_t> has_moved_, is_waiting_;  // has_moved_: or is not in the grid
   std::vector<std::uint32_t> waiting_;                // places of faces that have moved since the last look
@@ -261,11 +272,11 @@ std::vector<std::array<std::uint32_t, 2>> pairs_that_meet(const Drop& drop, std:
   return FoldFinder(drop, std::move(faces)).meeting();
 }
 
-bool meet_each_other(const Drop& drop, const std::vector<FaceBox>& faces) {
-  const MeshView mesh = view_of(drop);
-  const FaceGrid grid(faces);
-  return !grid.for_each_pair(
-      [&](const FaceBox& f, const FaceBox& g) { return !boolean_parts::faces_meet(mesh, f.face, g.face); });
+bool meet_each_other(const Drop& drop, std::vector<FaceBox> faces) {
+  const std::vector<PlacedTriangle> placed = placed_faces(drop, faces);
+  for (std::uint32_t k = 0; k < faces.size(); ++k) faces[k].face = k;
+  return !SortedBoxes(faces).for_each_pair(
+      [&](const FaceBox& f, const FaceBox& g) { return !meet(placed[f.face], placed[g.face]); });
 }
 
 std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before, const MergeOptions& options,
@@ -294,7 +305,7 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before,
       count_down_watch(drop, options.remesh.band);
     else if (!options.self_merge)
       region = guarded_region(drop, options.remesh.band.edge_max);  // it reaches where they are now
-    relax(drop, taken, region, options.remesh.band.edge_max);
+    relax(drop, taken, region);
     const bool is_measurable = std::abs(ledger.volume / drop.target_volume() - 1) < largest_volume_error;
     if (!taken.empty() && is_measurable) {
       offset_around(drop, taken, ledger.volume, region);

@@ -27,7 +27,7 @@ std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, co
 std::vector<std::array<std::uint32_t, 2>> pairs_that_meet(const Drop& drop, std::vector<FaceBox> faces);
 
 /// Whether any two of the faces do.
-bool meet_each_other(const Drop& drop, const std::vector<FaceBox>& faces);
+bool meet_each_other(const Drop& drop, std::vector<FaceBox> faces);
 
 /// Moves the free vertices that are not `held` along their normals until the drop encloses `volume` (cm^3), those near
 /// held ones by less. Where faces of the region then meet, more vertices are held; if that does not end, nothing moves.

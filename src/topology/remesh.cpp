@@ -272,7 +272,7 @@ RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOpt
                      !state.has_turned_faces && !state.has_films;
   if (rests && (options.smoothing == 0 || !state.has_sharp_angle)) return state.report;
   WatchedRegion region = options.guard_everywhere ? WatchedRegion() : guarded_region(drop, options.band.edge_max);
-  if (!region.empty()) scratch.guard.emplace(drop, std::move(region), options.band.edge_max);
+  if (!region.empty()) scratch.guard.emplace(drop, std::move(region));
   run_passes(state);
   scratch.guard.reset();
   mark_poor_quality(state);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "meniscus/core/types.h"
+#include "meniscus/geometry/placed_triangle.h"
 #include "meniscus/state/drop.h"
 #include "watched_region.h"
 
@@ -9,7 +10,6 @@
 
 #include <array>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 namespace meniscus {
@@ -25,8 +25,8 @@ class SheetGuard {
     std::array<Eigen::Vector3d, 3> points;
   };
 
-  /// Keeps a reference to the drop. `cell`: the length of the grid's cells, near that of an edge.
-  SheetGuard(const Drop& drop, WatchedRegion region, double cell);
+  /// Keeps a reference to the drop.
+  SheetGuard(const Drop& drop, WatchedRegion region);
   SheetGuard(const SheetGuard&) = delete;
   SheetGuard& operator=(const SheetGuard&) = delete;
 
@@ -42,28 +42,26 @@ class SheetGuard {
   void add(std::uint32_t face);
 
  private:
-  using Cell = std::array<std::int64_t, 3>;
-  struct Hash {
-    std::size_t operator()(const Cell& c) const {
-      return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
-    }
+  /// A face that was made or moved, and the next of its cell (none: no_entry).
+  struct Entry {
+    std::uint32_t face, next;
   };
-  Cell cell_of(const Eigen::Vector3d& x) const;
-  template <class Visit>
-  void for_each_cell(const Eigen::AlignedBox3d& box, Visit visit) const;
+  static constexpr std::uint32_t no_entry = ~std::uint32_t{0};
+
   void learn_faces();
-  /// Calls visit(face) for the known faces whose boxes may meet one, some twice, until it returns false; then returns
-  /// false too.
-  template <class Visit>
-  bool for_each_near(const Eigen::AlignedBox3d& box, Visit visit) const;
-  NewFace face_at(std::uint32_t face) const;
+  /// The faces that stay and whose boxes may meet one, each once, into near_.
+  void find_near(const Eigen::AlignedBox3d& box, const std::vector<std::uint32_t>& replaced,
+                 const std::vector<std::uint32_t>& removed);
 
   const Drop& drop_;
   WatchedRegion region_;
-  double cell_;
   std::vector<FaceBox> learnt_;  // where the faces were when an operation first asked: most calls of remeshing never do
   std::optional<FaceGrid> grid_;
-  std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> added_;  // those made or moved since
+  std::vector<std::uint32_t> first_entry_;    // of each cell
+  std::vector<Entry> entries_;                // faces made or moved since
+  std::vector<Eigen::AlignedBox3d> entered_;  // by face: where its last entry has it
+  std::vector<PlacedTriangle> new_, near_;    // of the operation at hand
+  std::vector<std::uint32_t> near_faces_;
 };
 
 }  // namespace meniscus

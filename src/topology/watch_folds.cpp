@@ -3,6 +3,7 @@
 #include "face_grid.h"
 #include "meniscus/state/contact_line.h"
 #include "merge_parts.h"
+#include "sorted_boxes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -121,7 +122,7 @@ void watch_thin_places(Drop& drop, double thickness) {
     normal.push_back(n);
   }
   std::uint8_t* const watch = drop.seam_watch();
-  FaceGrid(inward).for_each_pair([&](const FaceBox& a, const FaceBox& b) {
+  SortedBoxes(inward).for_each_pair([&](const FaceBox& a, const FaceBox& b) {
     if (!(normal[a.face].dot(normal[b.face]) < opposite)) return true;
     const Triangle &s = mesh.triangles[face_at[a.face]], &t = mesh.triangles[face_at[b.face]];
     if (boolean_parts::share_a_vertex(s, t)) return true;

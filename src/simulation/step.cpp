@@ -320,7 +320,7 @@ std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double 
     pieces.front().set_target_volume(pieces.front().target_volume() + inflow * part);
     pieces = substep(std::move(pieces.front()), solids, time - left * part, part, options, remesher, report);
   }
-  if (pieces.size() > 1) keep_inflow(pieces, solids, inflow);
+  keep_inflow(pieces, solids, inflow);
   if (left == 0 || pieces.empty()) {
     for (const Drop& piece : pieces) report.triangles += piece.mesh().number_of_faces();
     return pieces;

@@ -134,7 +134,7 @@ std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, 
     std::vector<Drop> pieces =
         remesh_and_split(std::move(traveller.drop), kept.positions(), solids, time - traveller.left,
                          left_before - traveller.left, options, remesher, clock, report);
-    if (pieces.size() > 1) keep_inflow(pieces, solids, inflow);
+    keep_inflow(pieces, solids, inflow);
     for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
       on_the_way.push_back({std::move(*piece), traveller.left, traveller.next, traveller.substeps});
   }

@@ -2,9 +2,11 @@
 #include "meniscus/operators/contact_angle.h"
 
 #include "meniscus/operators/collision_constraint.h"
+#include "within_triangle.h"
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace meniscus {
 namespace {
@@ -51,12 +53,28 @@ double largest_turn(std::size_t num_line) {
   return std::max(pi / 2, num_line > 0 ? 6 * pi / static_cast<double>(num_line) : pi);
 }
 
-/// Where the line turns too sharply a vertex goes half way to the middle of its neighbours, stuck or not: one that
-/// stuck while they moved on would stay behind for good, and the line crumple.
-void straighten(Drop& drop, const std::vector<Vector3d>& middles, const std::vector<std::uint32_t>& sharp) {
-  Columns x = drop.positions();
-  for (std::size_t k = 0; k < sharp.size(); ++k)
-    x.col(sharp[k]) += constrain_to_solid(drop, sharp[k], 0.5 * (middles[k] - Vector3d(x.col(sharp[k]))));
+/// Where the line turns too sharply.
+struct SharpTurn {
+  std::uint32_t vertex;
+  std::array<std::uint32_t, 2> neighbours;
+};
+
+/// There the vertex goes half way to the middle of its neighbours, stuck or not: one that stuck while they moved on
+/// would stay behind for good, and the line crumple. The line passes over none of its other vertices, or two parts of
+/// it that face each other would change sides.
+Vector3d straightening_move(const Drop& drop, const SharpTurn& turn, const std::vector<std::uint32_t>& line) {
+  constexpr int most_halvings = 4;
+  const ConstColumns x = drop.positions();
+  const auto [v, first, second] = std::tuple(turn.vertex, turn.neighbours[0], turn.neighbours[1]);
+  const Vector3d p = x.col(v), a = x.col(first), b = x.col(second), n = drop.contact_normals().col(v);
+  Vector3d move = constrain_to_solid(drop, v, 0.5 * (0.5 * (a + b) - p));
+  const auto passes_over = [&](std::uint32_t w) {
+    const Vector3d q = x.col(w);
+    return w != v && w != first && w != second && (is_within(q, a, p, p + move, n) || is_within(q, b, p, p + move, n));
+  };
+  for (int halving = 0; halving < most_halvings; ++halving, move *= 0.5)
+    if (std::none_of(line.begin(), line.end(), passes_over)) return move;
+  return Vector3d::Zero();
 }
 
 }  // namespace
@@ -68,15 +86,16 @@ ContactAngleReport apply_contact_angle(Drop& drop, const std::vector<Solid>& sol
   const auto n = static_cast<std::uint32_t>(drop.num_rows());
   std::vector<Vector3d>& kick = drop.workspace().vectors;  // all from the same state, so that order does not matter
   kick.resize(n);
-  for (std::uint32_t v = 0; v < n; ++v) report.line += contact[v] == Contact::line;
-  if (report.line == 0) return report;
+  std::vector<std::uint32_t> line_vertices;
+  for (std::uint32_t v = 0; v < n; ++v)
+    if (contact[v] == Contact::line) line_vertices.push_back(v);
+  report.line = line_vertices.size();
+  if (line_vertices.empty()) return report;
   const double cos_sharp_turn = std::cos(std::min(largest_turn(report.line), pi));
   std::int32_t last_solid = -1;
   SolidAngles angles{0, 0, Vector3d::Zero()};
-  std::vector<Vector3d> middles;
-  std::vector<std::uint32_t> sharp;
-  for (std::uint32_t v = 0; v < n; ++v) {
-    if (contact[v] != Contact::line) continue;
+  std::vector<SharpTurn> sharp;
+  for (const std::uint32_t v : line_vertices) {
     kick[v].setZero();
     const std::int32_t s = drop.contact_solid()[v];
     const Solid& solid = solids[s];
@@ -95,20 +114,18 @@ ContactAngleReport apply_contact_angle(Drop& drop, const std::vector<Solid>& sol
       kick[v] = virtual_work_kick(*line, force, slip, geometry.lumped_area(v), dt, options);
       report.advancing += force > 0;
       report.receding += force < 0;
-      if (line->turn_cosine < cos_sharp_turn) {
-        middles.push_back(line->middle);
-        sharp.push_back(v);
-      }
+      if (line->turn_cosine < cos_sharp_turn) sharp.push_back({v, line->neighbours});
     }
   }
   Columns x = drop.positions(), velocity = drop.velocities();
-  for (std::uint32_t v = 0; v < n; ++v) {
-    if (contact[v] != Contact::line) continue;
+  for (const std::uint32_t v : line_vertices) {
     const Vector3d change = constrain_to_solid(drop, v, kick[v]);
     velocity.col(v) += change;
     x.col(v) += change * dt;
   }
-  straighten(drop, middles, sharp);
+  std::vector<Vector3d> moves;
+  for (const SharpTurn& turn : sharp) moves.push_back(straightening_move(drop, turn, line_vertices));
+  for (std::size_t k = 0; k < sharp.size(); ++k) x.col(sharp[k].vertex) += moves[k];
   report.straightened = sharp.size();
   return report;
 }

@@ -89,6 +89,9 @@ class Collider {
   /// Whether any vertex needs a look: some solid is near, or some vertex was on one.
   bool has_work(bool was_in_contact) const { return !near_.empty() || was_in_contact; }
 
+  /// Tells whether the drop has wetted faces.
+  void set_held(bool is_held) { is_held_ = is_held; }
+
   /// Eqs 1 and 2 at vertex i, which was in state `before` (`stays`: it cannot leave its solid).
   bool collide(std::uint32_t i, Contact before, bool stays) {
     std::int32_t& touched = drop_.contact_solid()[i];
@@ -100,6 +103,7 @@ class Collider {
       return true;
     }
     if (colliding) place_on(static_cast<std::size_t>(touched), i, follow(i, solids_[touched], before), true);
+    const bool may_leave = is_colliding(before) && !stays && is_held_;
     for (int pass = 0; pass < max_collision_passes; ++pass) {
       std::size_t deepest = solids_.size();
       SolidContact contact{0, Vector3d::Zero(), Vector3d::Zero()};
@@ -110,7 +114,8 @@ class Collider {
         const SolidContact candidate = solids_[s].query(x_.col(i), time_);
         if (candidate.distance <= options_.touching_distance &&
             (deepest == solids_.size() || candidate.distance < contact.distance) &&
-            !(solids_[s].inflow && comes_from_behind(i, solids_[s], hangs_[k] != 0, candidate))) {
+            !(solids_[s].inflow && comes_from_behind(i, solids_[s], hangs_[k] != 0, candidate)) &&
+            !(may_leave && only_rests_on(solids_[s], i, candidate))) {
           deepest = s;
           contact = candidate;
         }
@@ -127,6 +132,12 @@ class Collider {
  private:
   /// Inside the wetted area of a solid at rest, without slip and with no other solid near, a vertex stands still.
   bool is_held(std::uint32_t i, std::int32_t touched) const { return touched == holder_ && v_.col(i).isZero(0); }
+
+  /// A vertex that lies on a solid alone, with no wetted face, is held by nothing, unless its drop is just landing.
+  bool only_rests_on(const Solid& solid, std::uint32_t i, const SolidContact& contact) const {
+    constexpr double rounding = 1e-12;  // cm
+    return contact.distance > -rounding && (v_.col(i) - solid.velocity(time_)).dot(contact.normal) >= 0;
+  }
 
   /// A source's disc stops what comes on it from the front. What else gets behind it passes: a vertex deeper than it
   /// went in this step and its faces reach, and, of a drop that does not hang from the disc, one whose faces look the
@@ -194,7 +205,8 @@ class Collider {
   const std::vector<Solid>& solids_;
   std::vector<std::size_t> near_;
   std::vector<std::uint8_t> hangs_;  // for each: it is a source, and the drop hangs from it
-  std::int32_t holder_ = -2;         // the one solid that is near, if it is at rest and holds what is on it; else none
+  bool is_held_ = false;
+  std::int32_t holder_ = -2;  // the one solid that is near, if it is at rest and holds what is on it; else none
   Columns x_, v_, n_;
   double time_, dt_;
   const ExternalForcesOptions& options_;
@@ -215,6 +227,7 @@ ExternalForcesReport apply_external_forces(Drop& drop, const std::vector<Solid>&
 
   std::vector<std::uint8_t>& stays = drop.workspace().fixed;
   mark_wetted(drop, stays);
+  collider.set_held(std::any_of(stays.begin(), stays.end(), [](std::uint8_t s) { return s != 0; }));
   std::vector<std::uint32_t> landed;
   for (std::uint32_t i = 0; i < n; ++i) {
     if (drop.connectivity().degree(i) == 0) continue;

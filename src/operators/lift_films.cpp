@@ -2,6 +2,7 @@
 #include "meniscus/operators/lift_films.h"
 
 #include "meniscus/state/contact_line.h"
+#include "within_triangle.h"
 
 #include <Eigen/Geometry>
 
@@ -13,12 +14,6 @@ namespace meniscus {
 namespace {
 
 using Eigen::Vector3d;
-
-/// Whether p lies within the triangle of three points, as seen along n.
-bool is_within(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& n) {
-  const double u = (b - a).cross(p - a).dot(n), v = (c - b).cross(p - b).dot(n), w = (a - c).cross(p - c).dot(n);
-  return (u <= 0 && v <= 0 && w <= 0) || (u >= 0 && v >= 0 && w >= 0);
-}
 
 constexpr double film_thickness = 0.02, largest_sagitta = 0.25;  // of the mean length of a vertex' edges
 

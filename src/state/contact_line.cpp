@@ -55,11 +55,11 @@ std::optional<ContactLineVertex> contact_line_vertex(const Drop& drop, std::uint
   const Ring ring = drop.connectivity().ring(v);
   Vector3d wet_gradient = Vector3d::Zero(), air_gradient = Vector3d::Zero(), air_normal = Vector3d::Zero();
   ContactLineVertex line{};
-  std::array<Vector3d, 2> ends{p, p};  // the neighbours on the line: where wet faces end and begin
+  line.neighbours = {v, v};
   int num_ends = 0;
   bool was_wet = false, first_is_wet = false;
   const auto end_at = [&](int k) {
-    if (num_ends++ < 2) ends[num_ends - 1] = x.col(ring.neighbour[k]);
+    if (num_ends++ < 2) line.neighbours[static_cast<std::size_t>(num_ends - 1)] = ring.neighbour[k];
   };
   for (int k = 0; k < ring.degree; ++k) {
     const std::uint32_t a = ring.neighbour[k], b = ring.neighbour[k + 1 == ring.degree ? 0 : k + 1];
@@ -86,8 +86,7 @@ std::optional<ContactLineVertex> contact_line_vertex(const Drop& drop, std::uint
   line.angle_cosine = std::clamp(air_normal.normalized().dot(normal), -1.0, 1.0);
   line.volume_gradient = air_normal.dot(line.outward) / 3;
   line.energy_cosine = air_gradient.dot(line.outward) / line.length;
-  line.middle = 0.5 * (ends[0] + ends[1]);
-  const Vector3d to = p - ends[0], from = ends[1] - p;
+  const Vector3d to = p - x.col(line.neighbours[0]), from = x.col(line.neighbours[1]) - p;
   const double lengths = to.norm() * from.norm();
   line.turn_cosine = num_ends == 2 && lengths > 0 ? to.dot(from) / lengths : 1;
   return line;

@@ -106,7 +106,8 @@ bool would_not_face_solid(const Eigen::Vector3d& n_new, const Eigen::Vector3d& s
 /// away from the vertex normal, or from the solid that it lies on) is to unfold: it is held against that.
 Refusal would_harm_star(const RemeshState& state, VertexIndex v, VertexIndex other, const Eigen::Vector3d& x,
                         bool becomes_colliding, std::vector<Eigen::Vector3d>& normals) {
-  constexpr double thin = 0.05;  // twice the area over the longest side squared: 0.87 for an equilateral triangle
+  constexpr double thin = 0.05;       // twice the area over the longest side squared: 0.87 for an equilateral triangle
+  constexpr double no_thinner = 0.9;  // of what a thin face had: points that all but coincide must become one
   const double bound = std::cos(state.options.max_normal_turn);
   const Eigen::Vector3d x_old = state.point(v), outward = air_normal(state, v);
   Eigen::Vector3d solid_normal = Eigen::Vector3d::Zero();
@@ -131,7 +132,8 @@ Refusal would_harm_star(const RemeshState& state, VertexIndex v, VertexIndex oth
       refusal = Refusal::contact_line;
     else if (!(turn > bound * new_norm) && !(was_thin && turn >= 0))
       refusal = Refusal::would_invert;
-    else if (new_norm < thin * new_longest2 && !(was_thin && new_norm * old_longest2 > old_norm * new_longest2))
+    else if (new_norm < thin * new_longest2 &&
+             !(was_thin && new_norm * old_longest2 > no_thinner * old_norm * new_longest2))
       refusal = Refusal::would_be_sliver;
     else if (state.is_long(weight * weight * xp2))
       refusal = Refusal::would_be_long;

@@ -205,6 +205,7 @@ void scan(RemeshState& state) {
   state.has_turned_faces = found.turned > 0;
   state.has_films = found.films > 0;
   state.has_bends = found.bends > 0;
+  state.has_slits = state.has_contact && has_slits(state);
   for (std::uint32_t f = 0; f < triangles.size(); ++f) {
     if (triangles[f][0] == Connectivity::removed) continue;
     const bool wet = on_solid(triangles[f]) == 3;
@@ -269,7 +270,7 @@ RemeshReport remesh_with(Remesher::Scratch& scratch, Drop& drop, const RemeshOpt
   RemeshState state(drop, options, scratch);
   scan(state);
   const bool rests = scratch.splits.empty() && scratch.collapses.empty() && scratch.flips.empty() &&
-                     !state.has_turned_faces && !state.has_films;
+                     !state.has_turned_faces && !state.has_films && !state.has_slits;
   if (rests && (options.smoothing == 0 || !state.has_sharp_angle)) return state.report;
   WatchedRegion region = options.guard_everywhere ? WatchedRegion() : guarded_region(drop, options.band.edge_max);
   if (!region.empty()) scratch.guard.emplace(drop, std::move(region));

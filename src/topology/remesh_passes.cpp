@@ -126,6 +126,7 @@ void run_passes(RemeshState& state) {
     ++state.report.passes;
     state.scratch.max_valence = 12;  // a fold is worse than a long ring
     if (state.has_films && pass == 0) dewet(state);
+    if (state.has_slits && pass == 0) close_slits(state);
     if (state.has_turned_faces) mend_contact(state);
     state.scratch.max_valence = pass == 0 ? 8 : 10;
     split_long_edges(state);

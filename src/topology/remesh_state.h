@@ -72,6 +72,7 @@ struct RemeshState {
   bool has_contact = false;       ///< some vertex is colliding
   bool has_sharp_angle = false;   ///< some corner is under 30 degrees: smoothing has something to do
   bool has_films = false;         ///< somewhere next to the contact line the liquid is too thin to show
+  bool has_slits = false;         ///< somewhere two parts of the contact line have come together but for a slit
   bool has_bends = false;         ///< some edge of a face of three colliding vertices has another wetted weight
   bool has_turned_faces = false;  ///< some face of three colliding vertices does not face its solid, or hardly
 
@@ -187,6 +188,11 @@ void mend_contact(RemeshState& state);
 bool is_film(const RemeshState& state, FaceIndex f);
 /// Takes such faces off the solid: the contact line passes over them, one edge a call.
 void dewet(RemeshState& state);
+
+/// Whether parts of the contact line that are watched form a slit: a wedge of less than 30 degrees that stays dry.
+bool has_slits(const RemeshState& state);
+/// The contact line passes over the ends of slits, one edge a call.
+void close_slits(RemeshState& state);
 
 /// Splits the edge of h at m, where the contact state is `contact`, unasked. Returns the new vertex.
 VertexIndex split_at(RemeshState& state, HalfedgeIndex h, const Eigen::Vector3d& m, Contact contact);

@@ -4,6 +4,7 @@
 #include "meniscus/topology/merge_meshes.h"
 #include "meniscus/topology/split.h"
 
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
@@ -86,6 +87,24 @@ MeshData with_attributes(MeshData data, const Welded& welded, const MeshData& so
   return data;
 }
 
+/// Turns each component of a closed mesh so that it encloses a positive volume; one that encloses none has no outside.
+void turn_outward(Mesh& mesh) {
+  auto component = mesh.add_property_map<FaceIndex, std::size_t>("f:component", 0).first;
+  std::vector<std::vector<FaceIndex>> faces(PMP::connected_components(mesh, component));
+  for (const auto f : mesh.faces()) faces[component[f]].push_back(f);
+  for (const auto& part : faces) {
+    const Eigen::Vector3d origin = to_eigen(mesh.point(mesh.source(mesh.halfedge(part.front()))));
+    double six_volumes = 0;
+    for (const auto f : part) {
+      const auto h = mesh.halfedge(f);
+      const auto corner = [&](VertexIndex v) -> Eigen::Vector3d { return to_eigen(mesh.point(v)) - origin; };
+      six_volumes += corner(mesh.source(h)).dot(corner(mesh.target(h)).cross(corner(mesh.target(mesh.next(h)))));
+    }
+    if (six_volumes < 0) PMP::reverse_face_orientations(part, mesh);
+  }
+  mesh.remove_property_map(component);
+}
+
 /// Components that overlap become one.
 MeshData unite_components(const MeshData& data) {
   std::vector<MeshData> parts;
@@ -108,7 +127,7 @@ MeshData repair_soup(const MeshData& soup) {
   PMP::remove_degenerate_faces(mesh);
   fill_holes(mesh);
   mesh.collect_garbage();
-  if (CGAL::is_closed(mesh)) PMP::orient(mesh);  // each component outward
+  if (CGAL::is_closed(mesh)) turn_outward(mesh);
   MeshData data = with_attributes(to_mesh_data(mesh), welded, soup);
   if (CGAL::is_closed(mesh) && connected_components(mesh).size() > 1 && !inspect(data).sound)
     return unite_components(data);

@@ -38,5 +38,23 @@ INSTANTIATE_TEST_SUITE_P(Regressions, FailedScenes,
                                          "sheets_touch_on_moving_plane", "fed_piece_loses_speck"),
                          [](const auto& scene) { return scene.param; });
 
+/// Parts of a contact line that meet become one: then nothing crosses any more, and nothing has to be taken back.
+class Slits : public testing::TestWithParam<std::string> {};
+
+TEST_P(Slits, Close) {
+  const Scene scene = read_scene(MENISCUS_DATA_DIR "/regressions/" + GetParam() + ".json");
+  Simulation simulation(scene);
+  for (int n = 1; n <= scene.frames; ++n) {
+    const StepReport report = simulation.step();
+    for (const Drop& drop : simulation.drops()) ASSERT_EQ(judge::defect(drop), "") << "step " << n;
+    if (n > 20) {
+      EXPECT_EQ(report.taken_back, 0u) << "step " << n;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Regressions, Slits, testing::Values("slit_beside_island", "slit_under_roof"),
+                         [](const auto& scene) { return scene.param; });
+
 }  // namespace
 }  // namespace meniscus

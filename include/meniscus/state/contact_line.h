@@ -3,6 +3,7 @@
 
 #include "meniscus/state/drop.h"
 
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -20,8 +21,8 @@ struct ContactLineVertex {
   double energy_cosine;     ///< cos(theta) by virtual work: grad A_air . outward / length
   double volume_gradient;   ///< the volume's derivative for a move along `outward`, cm^2
   double stiffness;         ///< L_ii of the water-air faces alone: the growth of the force with the move
-  Eigen::Vector3d middle;   ///< midway between the neighbours on the line
-  double turn_cosine;       ///< of the angle by which the line turns here, 1 where it is straight
+  std::array<std::uint32_t, 2> neighbours;  ///< on the line: the vertex itself for one that there is not
+  double turn_cosine;                       ///< of the angle by which the line turns here, 1 where it is straight
 
   double angle() const { return std::acos(angle_cosine); }  ///< radians
 };

@@ -103,6 +103,7 @@ struct NearVertex {
   SolidContact below;
 };
 
+/// Those within reach of it, or in it; behind a source's disc, which liquid passes, those within reach.
 std::vector<NearVertex> vertices_near(const Drop& drop, const Solid& solid, double time, double reach) {
   std::vector<NearVertex> near;
   for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
@@ -110,7 +111,7 @@ std::vector<NearVertex> vertices_near(const Drop& drop, const Solid& solid, doub
     const Vector3d x = drop.positions().col(v);
     if (!solid.is_near(x, time, reach)) continue;
     const SolidContact below = solid.query(x, time);
-    if (below.distance <= reach) near.push_back({v, below});
+    if (below.distance <= reach && !(solid.inflow && below.distance < -reach)) near.push_back({v, below});
   }
   return near;
 }
@@ -142,7 +143,7 @@ void lift_films(Drop& drop, const std::vector<Solid>& solids, double time, doubl
   const double reach_of_curved = reach_of_sagittas(drop), reach = std::max(low, reach_of_curved);
   std::optional<WettedFaces> wetted;
   for (const Solid& solid : solids) {
-    if (solid.inflow || !solid.is_near(box, time, reach)) continue;
+    if (!solid.is_near(box, time, reach)) continue;
     const std::vector<NearVertex> near = vertices_near(drop, solid, time, reach);
     std::vector<double> least;
     if (reach_of_curved > 0 && !near.empty()) least = least_heights(drop, near);

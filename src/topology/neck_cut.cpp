@@ -104,24 +104,43 @@ std::array<Side, 2> sides_of(const RemeshState& state, const std::array<Halfedge
 /// At most this many faces on one side of a cycle are a spike.
 constexpr std::size_t most_spike_faces = 16;
 
-enum class Cycle { neck, tunnel, spike };
+/// A cut that would shut in air of more than this share of the drop's volume is none: what is shut in is filled, and the
+/// drop would have to give so much of its volume at once.
+constexpr double most_shut_in = 0.05;
 
-/// Whether a cycle goes around a neck between two bodies of liquid or a tunnel of air, or cuts off a spike.
-Cycle kind_of(const Mesh& mesh, const std::array<HalfedgeIndex, 3>& cycle) {
+enum class Cycle { neck, tunnel, spike, mouth };
+
+/// Six times the volume below a face, as seen from a point.
+double six_volumes(const RemeshState& state, FaceIndex f, const Eigen::Vector3d& origin) {
+  const auto& [a, b, c] = state.connectivity.triangles()[f];
+  const auto from_origin = [&](std::uint32_t v) -> Eigen::Vector3d { return state.point(VertexIndex(v)) - origin; };
+  return from_origin(a).dot(from_origin(b).cross(from_origin(c)));
+}
+
+/// Whether a cycle goes around a neck between two bodies of liquid or a tunnel of air, cuts off a spike, or is the mouth
+/// of a hollow.
+Cycle kind_of(const RemeshState& state, const std::array<HalfedgeIndex, 3>& cycle) {
+  const Mesh& mesh = state.mesh;
   const auto is_on_cycle = [&](HalfedgeIndex h) {
     return std::any_of(cycle.begin(), cycle.end(), [&](HalfedgeIndex c) { return c == h || mesh.opposite(c) == h; });
   };
+  const Eigen::Vector3d origin = state.point(mesh.source(cycle[0]));  // on the caps, which then add no volume
+  double volume = 0, volume_of_side = 0;
+  for (const auto f : mesh.faces()) volume += six_volumes(state, f, origin);
   std::vector<bool> is_seen(mesh.num_faces(), false);
   std::vector<FaceIndex> side{mesh.face(cycle[0])};
   is_seen[side[0]] = true;
-  for (std::size_t k = 0; k < side.size(); ++k)
+  for (std::size_t k = 0; k < side.size(); ++k) {
+    volume_of_side += six_volumes(state, side[k], origin);
     for (const auto h : CGAL::halfedges_around_face(mesh.halfedge(side[k]), mesh)) {
       const auto beyond = mesh.face(mesh.opposite(h));
       if (is_on_cycle(h) || is_seen[beyond]) continue;
       is_seen[beyond] = true;
       side.push_back(beyond);
     }
+  }
   if (is_seen[mesh.face(mesh.opposite(cycle[0]))]) return Cycle::tunnel;
+  if (std::min(volume_of_side, volume - volume_of_side) < -most_shut_in * volume) return Cycle::mouth;
   const std::size_t smaller = std::min(side.size(), mesh.number_of_faces() - side.size());
   return smaller <= most_spike_faces ? Cycle::spike : Cycle::neck;
 }
@@ -236,8 +255,9 @@ Refusal try_cut(RemeshState& state, HalfedgeIndex h) {
   const bool is_of_seam = std::any_of(chosen.begin(), chosen.end(), [&](HalfedgeIndex c) {
     return state.drop.seam_watch()[mesh.target(c)] > violent_watched_calls;
   });
-  const Cycle kind = state.scratch.guard ? kind_of(state.mesh, chosen) : Cycle::neck;
-  if (is_of_seam && kind == Cycle::neck) return Refusal::link_condition;  // it is to grow
+  const Cycle kind = kind_of(state, chosen);
+  if (kind == Cycle::mouth) return Refusal::link_condition;
+  if (is_of_seam && state.scratch.guard && kind == Cycle::neck) return Refusal::link_condition;  // it is to grow
   std::array<Side, 2> sides = sides_of(state, chosen);
   if (!fit_steps(state, chosen, kind, sides)) return Refusal::near_intersection;
   cut(state, cycle, sides);

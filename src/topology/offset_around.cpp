@@ -38,9 +38,10 @@ void offset(Drop& drop, const SurfaceGeometry& geometry, const std::vector<doubl
     if (share[v] > 0) drop.positions().col(v) = before.col(v) + d * share[v] * geometry.normal(v);
 }
 
-/// Moves the vertices by the d at which the drop encloses `volume`, found by secants.
-void find_offset(Drop& drop, const SurfaceGeometry& geometry, const std::vector<double>& share,
-                 const Eigen::Matrix3Xd& before, double volume) {
+/// Moves the vertices by the d at which the drop encloses `volume`, found by secants. False if it is more than `most`:
+/// a surface that went so far would come out of another side.
+bool find_offset(Drop& drop, const SurfaceGeometry& geometry, const std::vector<double>& share,
+                 const Eigen::Matrix3Xd& before, double volume, double most) {
   constexpr int rounds = 4;
   constexpr double enough = 1e-9;
   double area = 0, d = 0, missing = volume - geometry.volume();
@@ -49,21 +50,24 @@ void find_offset(Drop& drop, const SurfaceGeometry& geometry, const std::vector<
   for (int k = 0; k < rounds && std::abs(missing) > enough * volume && area > 0; ++k) {
     const double more = missing / area, missing_old = missing;
     d += more;
+    if (!(std::abs(d) <= most)) return false;
     offset(drop, geometry, share, before, d);
     missing = volume - drop.volume();
     area = (missing_old - missing) / more;
   }
+  return true;
 }
 
 }  // namespace
 
 void offset_around(Drop& drop, std::vector<std::uint32_t> held, double volume, const WatchedRegion& region) {
   constexpr int most_rounds = 12;
+  const double most = 0.5 * std::cbrt(0.75 * volume / M_PI);
   SurfaceGeometry geometry;
   geometry.compute(std::as_const(drop).positions(), drop.connectivity());
   const Eigen::Matrix3Xd before = drop.positions();
   for (int round = 0; round < most_rounds; ++round) {
-    find_offset(drop, geometry, shares_of_offset(drop, held), before, volume);
+    if (!find_offset(drop, geometry, shares_of_offset(drop, held), before, volume, most)) break;
     const auto meeting = pairs_that_meet(drop, region.faces_of(drop));
     if (meeting.empty()) return;
     for (const auto& pair : meeting)
@@ -71,6 +75,7 @@ void offset_around(Drop& drop, std::vector<std::uint32_t> held, double volume, c
         for (const auto v : drop.connectivity().triangles()[face]) held.push_back(v);
     drop.positions() = before;
   }
+  drop.positions() = before;
 }
 
 void restore_volume(Drop& drop, double volume, double edge_max) {

@@ -86,7 +86,8 @@ ContactAngleReport apply_contact_angle(Drop& drop, const std::vector<Solid>& sol
   const auto n = static_cast<std::uint32_t>(drop.num_rows());
   std::vector<Vector3d>& kick = drop.workspace().vectors;  // all from the same state, so that order does not matter
   kick.resize(n);
-  std::vector<std::uint32_t> line_vertices;
+  std::vector<std::uint32_t>& line_vertices = drop.workspace().line;
+  line_vertices.clear();
   for (std::uint32_t v = 0; v < n; ++v)
     if (contact[v] == Contact::line) line_vertices.push_back(v);
   report.line = line_vertices.size();

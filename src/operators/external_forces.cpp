@@ -6,6 +6,7 @@
 #include "meniscus/state/contact_line.h"
 
 #include <fmt/format.h>
+#include <boost/container/small_vector.hpp>
 
 #include <algorithm>
 
@@ -203,8 +204,8 @@ class Collider {
 
   Drop& drop_;
   const std::vector<Solid>& solids_;
-  std::vector<std::size_t> near_;
-  std::vector<std::uint8_t> hangs_;  // for each: it is a source, and the drop hangs from it
+  boost::container::small_vector<std::size_t, 8> near_;
+  boost::container::small_vector<std::uint8_t, 8> hangs_;  // for each: it is a source, and the drop hangs from it
   bool is_held_ = false;
   std::int32_t holder_ = -2;  // the one solid that is near, if it is at rest and holds what is on it; else none
   Columns x_, v_, n_;

@@ -130,7 +130,7 @@ bool land(RemeshState& state, VertexIndex v, const Landing& landing) {
 
 /// Where operations have put the surface or the line of late, or it came too near to itself.
 bool is_watched(const RemeshState& state, VertexIndex v) {
-  return state.drop.seam_watch()[v] != 0 && !state.mesh.is_isolated(v);
+  return state.drop.seam_watch()[v] != 0 && state.connectivity.degree(v) > 0;
 }
 
 }  // namespace
@@ -146,7 +146,7 @@ bool has_slits(const RemeshState& state) {
 void close_slits(RemeshState& state) {
   for (std::uint32_t k = 0; k < state.mesh.num_vertices(); ++k) {
     const VertexIndex v(k);
-    if (state.mesh.is_removed(v) || !is_watched(state, v)) continue;
+    if (!is_watched(state, v)) continue;
     if (!state.colliding(v))
       if (const auto landing = landing_of(state, v)) land(state, v, *landing);
     if (!state.on_line(v)) continue;

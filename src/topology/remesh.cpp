@@ -206,11 +206,11 @@ void scan(RemeshState& state) {
   state.has_films = found.films > 0;
   state.has_bends = found.bends > 0;
   state.has_slits = state.has_contact && has_slits(state);
+  const bool wet_faces_need_more = state.has_turned_faces || state.has_bends;
   for (std::uint32_t f = 0; f < triangles.size(); ++f) {
-    if (triangles[f][0] == Connectivity::removed) continue;
+    if (triangles[f][0] == Connectivity::removed || (marked[f] == 0 && !wet_faces_need_more)) continue;
     const bool wet = on_solid(triangles[f]) == 3;
-    if (marked[f] != 0 || (wet && (state.has_turned_faces || state.has_bends)))
-      inspect_face(state, FaceIndex(f), sides_of(triangles[f]), wet);
+    if (marked[f] != 0 || wet) inspect_face(state, FaceIndex(f), sides_of(triangles[f]), wet);
   }
 }
 

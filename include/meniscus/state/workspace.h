@@ -43,6 +43,7 @@ struct Workspace {
   std::vector<Eigen::Vector3d> vectors;
   std::vector<double> scalars, more_scalars;
   std::vector<std::uint8_t> fixed;
+  std::vector<std::uint32_t> line;  ///< vertices of the contact line
   std::vector<std::uint8_t> films;  ///< by vertex, of the last lift_films: 1 in a film too thin to show; empty if none
   KeptState kept;                   ///< at the start of the substep
   std::vector<std::uint8_t> violent_faces;   ///< by face, of the last FaceChanges

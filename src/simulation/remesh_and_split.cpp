@@ -72,6 +72,14 @@ MergeOptions merge_options(const StepOptions& step) {
   return options;
 }
 
+const Solid* holder_of(const Drop& drop, const std::vector<Solid>& solids) {
+  std::vector<std::size_t> count(solids.size(), 0);
+  for (std::size_t v = 0; v < drop.num_rows(); ++v)
+    if (is_colliding(drop.contact()[v])) ++count[static_cast<std::size_t>(drop.contact_solid()[v])];
+  const auto most = std::max_element(count.begin(), count.end());
+  return most == count.end() || *most == 0 ? nullptr : &solids[static_cast<std::size_t>(most - count.begin())];
+}
+
 namespace {
 
 /// What operators and remeshing leave of a drop's volume is given back here if it is more than this share; what is less
@@ -85,18 +93,13 @@ void give_back_volume(Drop& drop, const StepOptions& options) {
   restore_volume(drop, target, options.band.edge_max);
 }
 
-/// A drop on several solids is held by the one that most of its vertices lie on, of equals the first.
 LastSound last_sound(const Drop& drop, const Eigen::Matrix3Xd& positions, const std::vector<Solid>& solids, double time,
                      double dt) {
   LastSound last{positions};
-  std::vector<std::size_t> count(solids.size(), 0);
-  for (std::size_t v = 0; v < drop.num_rows(); ++v)
-    if (is_colliding(drop.contact()[v])) ++count[static_cast<std::size_t>(drop.contact_solid()[v])];
-  const auto most = std::max_element(count.begin(), count.end());
-  if (most == count.end() || *most == 0) return last;
-  const Solid& solid = solids[static_cast<std::size_t>(most - count.begin())];
-  last.solid_moved = solid.offset(time) - solid.offset(time - dt);
-  last.solid_velocity = solid.velocity(time);
+  const Solid* const holder = holder_of(drop, solids);
+  if (holder == nullptr) return last;
+  last.solid_moved = holder->offset(time) - holder->offset(time - dt);
+  last.solid_velocity = holder->velocity(time);
   return last;
 }
 

@@ -32,6 +32,10 @@ inline double ball_radius(const Drop& drop) { return std::cbrt(drop.target_volum
 /// does.
 void keep_inflow(std::vector<Drop>& pieces, const std::vector<Solid>& solids, double inflow);
 
+/// The solid that a drop is held by, if it touches any: of several that which most of its vertices lie on, of equals
+/// the first.
+const Solid* holder_of(const Drop& drop, const std::vector<Solid>& solids);
+
 /// How drops merge in a step.
 MergeOptions merge_options(const StepOptions& step);
 

@@ -101,6 +101,17 @@ void take_substep(Traveller& traveller, const std::vector<Solid>& solids, double
   ++traveller.substeps;
 }
 
+/// A speck on a solid of which every vertex was taken back rests there until the next step: it does not get free in
+/// shorter substeps either, and they would be of the shortest.
+void rest(Traveller& traveller, const std::vector<Solid>& solids, double time) {
+  Drop& speck = traveller.drop;
+  const Solid& solid = *holder_of(speck, solids);
+  speck.positions().colwise() += solid.offset(time) - solid.offset(time - traveller.left);
+  speck.velocities().colwise() = solid.velocity(time);
+  speck.set_target_volume(speck.target_volume() + speck.inflow() * traveller.left);
+  traveller.left = 0;
+}
+
 }  // namespace
 
 std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, double time, double dt,
@@ -131,12 +142,16 @@ std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, 
     }
     report.substeps = std::max(report.substeps, traveller.substeps);
     const double inflow = traveller.drop.inflow();
+    const std::size_t taken_back = report.taken_back;
     std::vector<Drop> pieces =
         remesh_and_split(std::move(traveller.drop), kept.positions(), solids, time - traveller.left,
                          left_before - traveller.left, options, remesher, clock, report);
     keep_inflow(pieces, solids, inflow);
+    const bool is_stuck = pieces.size() == 1 && report.taken_back - taken_back >= pieces.front().num_rows() &&
+                          is_speck(pieces.front(), options.band) && touches_solid(pieces.front());
     for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
       on_the_way.push_back({std::move(*piece), traveller.left, traveller.next, traveller.substeps});
+    if (is_stuck) rest(on_the_way.back(), solids, time);
   }
   return arrived;
 }

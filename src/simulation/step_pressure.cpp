@@ -101,7 +101,7 @@ void take_substep(Traveller& traveller, const std::vector<Solid>& solids, double
   ++traveller.substeps;
 }
 
-/// A speck on a solid of which every vertex was taken back rests there until the next step: it does not get free in
+/// A speck on a solid of which most vertices were taken back rests there until the next step: it does not get free in
 /// shorter substeps either, and they would be of the shortest.
 void rest(Traveller& traveller, const std::vector<Solid>& solids, double time) {
   Drop& speck = traveller.drop;
@@ -147,7 +147,7 @@ std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, 
         remesh_and_split(std::move(traveller.drop), kept.positions(), solids, time - traveller.left,
                          left_before - traveller.left, options, remesher, clock, report);
     keep_inflow(pieces, solids, inflow);
-    const bool is_stuck = pieces.size() == 1 && report.taken_back - taken_back >= pieces.front().num_rows() &&
+    const bool is_stuck = pieces.size() == 1 && 2 * (report.taken_back - taken_back) >= pieces.front().num_rows() &&
                           is_speck(pieces.front(), options.band) && touches_solid(pieces.front());
     for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
       on_the_way.push_back({std::move(*piece), traveller.left, traveller.next, traveller.substeps});

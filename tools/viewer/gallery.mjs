@@ -22,8 +22,8 @@ const shots = [
   { name: "tap_low", scene: "tap_low", frames: 96, look: "frame=32&elevation=0&target=0,0,-4&zoom=10", text: "a tap, tension 8 (Fig 9)" },
   { name: "tap_middle", scene: "tap_middle", frames: 96, look: "frame=32&elevation=0&target=0,0,-4&zoom=10", text: "tension 30 (Fig 9)" },
   { name: "tap_high", scene: "tap_high", frames: 96, look: "frame=32&elevation=0&target=0,0,-4&zoom=10", text: "tension 72 (Fig 9)" },
-  { name: "pane", scene: "pane", frames: 150, look: "frame=40&azimuth=180&elevation=12&target=0,0,0&zoom=11", text: "a window pane: small drops stick, large ones run (Fig 10)" },
-  { name: "pane_button", scene: "pane", frames: 150, look: "frame=130&azimuth=180&elevation=12&target=0,0,0&zoom=11", text: "and a button is drawn over it (Fig 10)" },
+  { name: "pane", scene: "pane", frames: 150, look: "frame=40&azimuth=150&elevation=10&target=0,0,-1&zoom=20", text: "a window pane: small drops stick, large ones run (Fig 10)" },
+  { name: "pane_button", scene: "pane", frames: 150, look: "frame=130&azimuth=150&elevation=10&target=0,0,2&zoom=18", text: "and a button is drawn over it (Fig 10)" },
   { name: "bird", scene: "bird", frames: 120, look: "frame=40&elevation=0&azimuth=50&target=0,0,0&zoom=70", text: "drops run down a bird and hang from it (Fig 11)" },
   { name: "lotus", scene: "lotus", frames: 140, look: "frame=70&elevation=25&target=0.4,-0.5,0.3&zoom=75", text: "drops on lotus leaves (Fig 12)" },
 ];

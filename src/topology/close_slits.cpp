@@ -93,8 +93,8 @@ struct Landing {
   Vector3d point;
 };
 
-/// The roof of a slit that is open at both ends: a free vertex v next to the solid that has a face over either part of
-/// the line. On the solid, both face it.
+/// The roof of a slit: a free vertex v next to the solid that has faces over either part of the line, or over both
+/// sides of its end. On the solid, all face it.
 std::optional<Landing> landing_of(const RemeshState& state, VertexIndex v) {
   constexpr double low = 0.1;  // in lengths of edge_min
   const Ring ring = state.ring(v);
@@ -110,9 +110,8 @@ std::optional<Landing> landing_of(const RemeshState& state, VertexIndex v) {
     if (!landing) landing = Landing{p, x - height * n};
     if (!(facing(landing->point, state.point(p), state.point(q), n) > least_facing)) return std::nullopt;
     ++walls;
-    ++k;  // the next face would be another one over the same part
   }
-  return walls == 2 ? landing : std::nullopt;
+  return walls >= 2 ? landing : std::nullopt;
 }
 
 bool land(RemeshState& state, VertexIndex v, const Landing& landing) {
@@ -123,6 +122,9 @@ bool land(RemeshState& state, VertexIndex v, const Landing& landing) {
   drop.contact_normals().col(v) = state.contact_normal(landing.beside);
   state.mesh.point(v) = to_point(landing.point);
   state.update(v);
+  state.update_contact(v);
+  const Ring ring = state.ring(v);
+  for (int k = 0; k < ring.degree; ++k) state.update_contact(VertexIndex(ring.neighbour[k]));
   state.queue_ring(v);
   ++state.report.lifts;
   return true;
@@ -136,11 +138,13 @@ bool is_watched(const RemeshState& state, VertexIndex v) {
 }  // namespace
 
 bool has_slits(const RemeshState& state) {
-  const auto vertices = state.mesh.vertices();
-  return std::any_of(vertices.begin(), vertices.end(), [&](VertexIndex v) {
-    return is_watched(state, v) &&
-           (state.on_line(v) ? slit_at(state, v).has_value() : !state.colliding(v) && landing_of(state, v).has_value());
-  });
+  for (std::uint32_t k = 0; k < state.drop.num_rows(); ++k) {
+    const VertexIndex v(k);
+    if (!is_watched(state, v)) continue;
+    if (state.on_line(v) ? slit_at(state, v).has_value() : !state.colliding(v) && landing_of(state, v).has_value())
+      return true;
+  }
+  return false;
 }
 
 void close_slits(RemeshState& state) {

@@ -104,8 +104,8 @@ std::array<Side, 2> sides_of(const RemeshState& state, const std::array<Halfedge
 /// At most this many faces on one side of a cycle are a spike.
 constexpr std::size_t most_spike_faces = 16;
 
-/// A cut that would shut in air of more than this share of the drop's volume is none: what is shut in is filled, and the
-/// drop would have to give so much of its volume at once.
+/// A cut that would shut in air of more than this share of the drop's volume is none: what is shut in is filled, and
+/// the drop would have to give so much of its volume at once.
 constexpr double most_shut_in = 0.05;
 
 enum class Cycle { neck, tunnel, spike, mouth };
@@ -117,8 +117,8 @@ double six_volumes(const RemeshState& state, FaceIndex f, const Eigen::Vector3d&
   return from_origin(a).dot(from_origin(b).cross(from_origin(c)));
 }
 
-/// Whether a cycle goes around a neck between two bodies of liquid or a tunnel of air, cuts off a spike, or is the mouth
-/// of a hollow.
+/// Whether a cycle goes around a neck between two bodies of liquid or a tunnel of air, cuts off a spike, or is the
+/// mouth of a hollow.
 Cycle kind_of(const RemeshState& state, const std::array<HalfedgeIndex, 3>& cycle) {
   const Mesh& mesh = state.mesh;
   const auto is_on_cycle = [&](HalfedgeIndex h) {
@@ -202,6 +202,10 @@ void cut(RemeshState& state, const std::vector<HalfedgeIndex>& cycle, const std:
   const auto made = cut_along_cycle(mesh, cycle);
   std::copy(made.copies.begin(), made.copies.end(), right.begin());
   for (std::size_t i = 0; i < 3; ++i) state.scratch.attributes.copy(right[i], left[i]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    mesh.point(left[i]) = to_point(state.point(left[i]) + sides[0].steps[i]);
+    mesh.point(right[i]) = to_point(state.point(right[i]) + sides[1].steps[i]);
+  }
   state.connectivity.grow(mesh);
   for (const auto v : left) state.update(v);
   for (const auto v : right) state.update(v);
@@ -214,16 +218,31 @@ void cut(RemeshState& state, const std::vector<HalfedgeIndex>& cycle, const std:
   }
   for (const auto v : around) state.update(v);
 
-  for (std::size_t i = 0; i < 3; ++i) {
-    mesh.point(left[i]) = to_point(state.point(left[i]) + sides[0].steps[i]);
-    mesh.point(right[i]) = to_point(state.point(right[i]) + sides[1].steps[i]);
-  }
   for (const auto* side : {&left, &right})
     for (const auto v : *side) {
       state.update_contact(v);
       state.queue_ring(v);
     }
   ++state.report.cuts;
+}
+
+/// The faces that hang together with one, or none if they are more than `most`.
+std::vector<FaceIndex> small_component(const Mesh& mesh, FaceIndex start, std::size_t most) {
+  std::vector<FaceIndex> faces{start};
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    if (faces.size() > most) return {};
+    for (const auto f : CGAL::faces_around_face(mesh.halfedge(faces[k]), mesh))
+      if (std::find(faces.begin(), faces.end(), f) == faces.end()) faces.push_back(f);
+  }
+  return faces;
+}
+
+/// A spike that was cut where it is lies against what it was cut from until it is deleted.
+void forget_spike(RemeshState& state, const std::array<Side, 2>& sides) {
+  if (!state.scratch.guard) return;
+  for (const Side& side : sides)
+    for (const auto f : small_component(state.mesh, side.faces.front(), most_spike_faces + 1))
+      state.scratch.guard->forget(f);
 }
 
 }  // namespace
@@ -261,6 +280,7 @@ Refusal try_cut(RemeshState& state, HalfedgeIndex h) {
   std::array<Side, 2> sides = sides_of(state, chosen);
   if (!fit_steps(state, chosen, kind, sides)) return Refusal::near_intersection;
   cut(state, cycle, sides);
+  if (kind == Cycle::spike) forget_spike(state, sides);
   return Refusal::none;
 }
 

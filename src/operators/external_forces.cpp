@@ -90,11 +90,9 @@ class Collider {
   /// Whether any vertex needs a look: some solid is near, or some vertex was on one.
   bool has_work(bool was_in_contact) const { return !near_.empty() || was_in_contact; }
 
-  /// Tells whether the drop has wetted faces.
-  void set_held(bool is_held) { is_held_ = is_held; }
-
-  /// Eqs 1 and 2 at vertex i, which was in state `before` (`stays`: it cannot leave its solid).
-  bool collide(std::uint32_t i, Contact before, bool stays) {
+  /// Eqs 1 and 2 at vertex i, which was in state `before` (`stays`: it cannot leave its solid; `drop_is_held`: some
+  /// vertex of the drop stays).
+  bool collide(std::uint32_t i, Contact before, bool stays, bool drop_is_held) {
     std::int32_t& touched = drop_.contact_solid()[i];
     if (stays && before == Contact::wetted && is_held(i, touched)) return true;
     if (!stays) touched = -1;
@@ -104,7 +102,7 @@ class Collider {
       return true;
     }
     if (colliding) place_on(static_cast<std::size_t>(touched), i, follow(i, solids_[touched], before), true);
-    const bool may_leave = is_colliding(before) && !stays && is_held_;
+    const bool may_leave = is_colliding(before) && !stays && drop_is_held;
     for (int pass = 0; pass < max_collision_passes; ++pass) {
       std::size_t deepest = solids_.size();
       SolidContact contact{0, Vector3d::Zero(), Vector3d::Zero()};
@@ -206,7 +204,6 @@ class Collider {
   const std::vector<Solid>& solids_;
   boost::container::small_vector<std::size_t, 8> near_;
   boost::container::small_vector<std::uint8_t, 8> hangs_;  // for each: it is a source, and the drop hangs from it
-  bool is_held_ = false;
   std::int32_t holder_ = -2;  // the one solid that is near, if it is at rest and holds what is on it; else none
   Columns x_, v_, n_;
   double time_, dt_;
@@ -228,11 +225,11 @@ ExternalForcesReport apply_external_forces(Drop& drop, const std::vector<Solid>&
 
   std::vector<std::uint8_t>& stays = drop.workspace().fixed;
   mark_wetted(drop, stays);
-  collider.set_held(std::any_of(stays.begin(), stays.end(), [](std::uint8_t s) { return s != 0; }));
+  const bool drop_is_held = std::any_of(stays.begin(), stays.end(), [](std::uint8_t s) { return s != 0; });
   std::vector<std::uint32_t> landed;
   for (std::uint32_t i = 0; i < n; ++i) {
     if (drop.connectivity().degree(i) == 0) continue;
-    const bool colliding = collider.collide(i, contact[i], stays[i] != 0);
+    const bool colliding = collider.collide(i, contact[i], stays[i] != 0, drop_is_held);
     if (colliding && !is_colliding(contact[i])) landed.push_back(i);
     contact[i] = colliding ? Contact::wetted : Contact::free;
   }

@@ -47,10 +47,6 @@ std::optional<Slit> slit_at(const RemeshState& state, VertexIndex tip) {
   return std::nullopt;
 }
 
-bool are_joined(const Mesh& mesh, std::uint32_t v, std::uint32_t w) {
-  return mesh.halfedge(VertexIndex(v), VertexIndex(w)).is_valid();
-}
-
 /// The line passes over the end of the slit: the faces over it leave the tip, which then lies inside the wetted area.
 bool close(RemeshState& state, const Slit& slit) {
   Mesh& mesh = state.mesh;
@@ -69,8 +65,10 @@ bool close(RemeshState& state, const Slit& slit) {
     over.push_back(neighbour(ring, k));
     faces.push_back(placed(p, neighbour(ring, k), neighbour(ring, k + 1)));
   }
-  if (are_joined(mesh, p, q)) return false;
-  if (std::any_of(over.begin() + 1, over.end(), [&](std::uint32_t v) { return are_joined(mesh, p, v); })) return false;
+  if (are_joined(mesh, VertexIndex(p), VertexIndex(q))) return false;
+  if (std::any_of(over.begin() + 1, over.end(),
+                  [&](std::uint32_t v) { return are_joined(mesh, VertexIndex(p), VertexIndex(v)); }))
+    return false;
   if (std::any_of(over.begin(), over.end(), [&](std::uint32_t v) { return state.connectivity.degree(v) < 4; }))
     return false;
   if (state.would_meet_sheet({}, removed)) return false;

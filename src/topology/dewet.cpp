@@ -86,8 +86,6 @@ bool has_other_film(const RemeshState& state, HalfedgeIndex h) {
   return films > 1;
 }
 
-bool are_joined(const Mesh& mesh, VertexIndex v, VertexIndex w) { return mesh.halfedge(v, w).is_valid(); }
-
 /// The line moves from the edge h to its apex v: v comes down on the solid, and the film between, which lies flat on
 /// the wet face below it, goes with that face by a flip.
 bool try_dewet(RemeshState& state, HalfedgeIndex h) {

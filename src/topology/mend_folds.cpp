@@ -154,7 +154,7 @@ class FoldFinder {
         if (meet(placed, placed_face(mesh, g))) meeting_.push_back({std::min(f, g), std::max(f, g)});
         return true;
       };
-      const Eigen::AlignedBox3d box = box_now(f);
+      const Eigen::AlignedBox3d box = placed.box();
       grid_->for_each_meeting(box, [&](const FaceBox& g) { return has_moved_[place_[g.face]] != 0 || test(g.face); });
       moved_grid.for_each_meeting(box, [&](const FaceBox& g) {
         const bool is_seen_from_there = waits(g.face) && g.face < f;

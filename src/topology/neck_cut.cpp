@@ -125,8 +125,8 @@ Cycle kind_of(const RemeshState& state, const std::array<HalfedgeIndex, 3>& cycl
     return std::any_of(cycle.begin(), cycle.end(), [&](HalfedgeIndex c) { return c == h || mesh.opposite(c) == h; });
   };
   const Eigen::Vector3d origin = state.point(mesh.source(cycle[0]));  // on the caps, which then add no volume
-  double volume = 0, volume_of_side = 0;
-  for (const auto f : mesh.faces()) volume += six_volumes(state, f, origin);
+  const double volume = 6 * state.drop.volume();
+  double volume_of_side = 0;  // both times six
   std::vector<bool> is_seen(mesh.num_faces(), false);
   std::vector<FaceIndex> side{mesh.face(cycle[0])};
   is_seen[side[0]] = true;

@@ -162,6 +162,9 @@ constexpr double most_turn = 0.5;
 /// How far a vertex is lifted off a solid where the liquid has no thickness, in lengths of edge_min.
 constexpr double lift_in_edges = 0.02;
 
+/// An edge runs between the two vertices.
+inline bool are_joined(const Mesh& mesh, VertexIndex v, VertexIndex w) { return mesh.halfedge(v, w).is_valid(); }
+
 /// (cot a + cot b) of the angles opposite to the edge: twice its weight.
 double cotangent_sum(const RemeshState& state, HalfedgeIndex h);
 /// The same for the edge between two vertices; o and p are the third corners of its faces.

@@ -110,22 +110,18 @@ void SurfaceGeometry::compute_vertex(const ConstColumns& x, const Connectivity& 
     carried = face.cotangent[next[corner]];
     gradient += std::max(half_sum, 0.0) * (own - x.col(ring.neighbour[k]));
   }
-  area_vector_[v] = sum;
+  set_area_vector(v, sum);
   area_gradient_[v] = gradient;
   lumped_area_[v] = area;
-  const double length = sum.norm();
-  normal_[v] = length > 0 ? Eigen::Vector3d(sum / length) : Eigen::Vector3d::Zero();
 }
 
 void SurfaceGeometry::compute(const ConstColumns& x, const Connectivity& connectivity) {
-  const std::size_t n = connectivity.num_rows(), num_long = connectivity.long_rings().size();
+  const std::size_t n = connectivity.num_rows();
   faces_.resize(connectivity.triangles().size());
   for (auto* array : {&area_vector_, &normal_, &area_gradient_}) array->resize(n);
   lumped_area_.resize(n);
   edge_weights_.weight.resize(Connectivity::width * n);
-  edge_weights_.long_weight.resize(num_long);
-  for (std::size_t k = 0; k < num_long; ++k)
-    edge_weights_.long_weight[k].resize(connectivity.long_rings()[k].neighbour.size());
+  edge_weights_.fit_long_rings(connectivity);
   compute_faces(x, connectivity);
   for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) compute_vertex(x, connectivity, static_cast<std::uint32_t>(v));

@@ -109,9 +109,10 @@ std::size_t update_line(Drop& drop, const std::vector<Solid>& solids, double dt,
 /// Touching vertices that would move into their solid are blocked. Returns how many more than before.
 std::size_t block_touching(const Drop& drop, PressureArrays& arrays);
 
-/// Moves each vertex `factor` of the way along the surface to its ring's centroid (line vertices along the
-/// line, sharp turns of the line half way to straight, whatever the factor), with `speed` carried along,
-/// and offsets the free surface by `offset` (cm) along its normals.
-void even_out(Drop& drop, const PressureOptions& options, double factor, double offset, PressureArrays& arrays);
+/// Moves each vertex options.smoothing of the way along the surface to its ring's centroid (line vertices along the
+/// line, sharp turns of the line half way to straight, whatever the share), with the deformation carried along, and
+/// offsets the free surface along its normals by what the drop lacks of its volume, within bounds. The normals, which
+/// it computes anew, are those before that.
+void even_out(Drop& drop, const PressureOptions& options, PressureArrays& arrays);
 
 }  // namespace meniscus

@@ -27,21 +27,27 @@ LineNeighbours line_neighbours(const Drop& drop, const std::vector<std::uint8_t>
   return result;
 }
 
-/// From a vertex to the area weighted centroid of its ring.
-Vector3d to_centroid(const Drop& drop, std::uint32_t v) {
+/// What the faces around a vertex add up to.
+struct Around {
+  Vector3d area_vector;  ///< cm^2
+  Vector3d to_centroid;  ///< from the vertex, area weighted; cm
+};
+
+Around look_around(const Drop& drop, std::uint32_t v) {
   const ConstColumns x = drop.positions();
-  const auto& faces = drop.workspace().geometry.faces();
   const Ring ring = drop.connectivity().ring(v);
-  Vector3d sum = Vector3d::Zero();
+  Vector3d area_vector = Vector3d::Zero(), moment = Vector3d::Zero();
   double area = 0;
+  Vector3d last = ring.degree > 0 ? Vector3d(x.col(ring.neighbour[ring.degree - 1]) - x.col(v)) : Vector3d::Zero();
   for (int k = 0; k < ring.degree; ++k) {
-    const FaceGeometry& face = faces[ring.corner[k] / 3];
-    const double a = face.area[0] + face.area[1] + face.area[2];
-    const std::uint32_t p = ring.neighbour[k], q = ring.neighbour[k + 1 == ring.degree ? 0 : k + 1];
-    sum += a / 3 * (x.col(p) + x.col(q) - 2 * x.col(v));
-    area += a;
+    const Vector3d edge = x.col(ring.neighbour[k]) - x.col(v), twice_area = last.cross(edge);
+    const double length = twice_area.norm();
+    area_vector += twice_area;
+    moment += length * (last + edge);
+    area += length;
+    last = edge;
   }
-  return area > 0 ? Vector3d(sum / area) : Vector3d(Vector3d::Zero());
+  return {0.5 * area_vector, area > 0 ? Vector3d(moment / (3 * area)) : Vector3d(Vector3d::Zero())};
 }
 
 /// The gradient of a function on the water-air surface, area weighted over the ring.
@@ -88,40 +94,59 @@ double sharp_turn_cosine(const PressureSurface& surface) {
                   degree);
 }
 
+/// The most that a substep offsets the surface, as a share of edge_min.
+constexpr double most_offset = 0.05;
+
+/// What the free surface must be offset by for the volume (cm), within bounds.
+double volume_offset(const Drop& drop, double edge_min, const PressureSurface& surface) {
+  const SurfaceGeometry& geometry = drop.workspace().geometry;
+  double area = 0;
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
+    if (is_on_surface(surface.role[v]) && !is_colliding(drop.contact()[v])) area += geometry.area_vector(v).norm() / 3;
+  const double missing = drop.target_volume() - drop.volume(), most = most_offset * edge_min;
+  return area > 0 ? std::clamp(missing / area, -most, most) : 0;
+}
+
 }  // namespace
 
-void even_out(Drop& drop, const PressureOptions& options, double factor, double offset, PressureArrays& arrays) {
+void even_out(Drop& drop, const PressureOptions& options, PressureArrays& arrays) {
   const PressureSurface& surface = arrays.surface;
-  const SurfaceGeometry& geometry = drop.workspace().geometry;
+  SurfaceGeometry& geometry = drop.workspace().geometry;
   const auto n = static_cast<std::uint32_t>(drop.num_rows());
-  const double sharp = surface.in_contact ? sharp_turn_cosine(surface) : -1;
+  const double factor = options.smoothing, sharp = surface.in_contact ? sharp_turn_cosine(surface) : -1;
   const double small = 1e-3 * options.edge_min;  // u changes by next to nothing on such a way
   std::vector<double>& carried = arrays.rhs;     // free by now
   std::vector<Vector3d>& shift = arrays.shift;
   shift.assign(n, Vector3d::Zero());
   carried = arrays.deformation;
+  const auto is_free = [&](std::uint32_t v) {
+    return is_on_surface(surface.role[v]) && !is_colliding(drop.contact()[v]);
+  };
   for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
     for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
-      const bool colliding = is_colliding(drop.contact()[v]);
-      const Role role = surface.role[v];
+      const Around around = look_around(drop, v);
+      geometry.set_area_vector(v, around.area_vector);
       if (drop.connectivity().degree(v) <= 3) continue;  // a corner of a tetrahedron has no tangent plane
-      if (is_on_surface(role) && !colliding) {
-        const Vector3d normal = geometry.normal(v), way = to_centroid(drop, v);
-        shift[v] = factor * (way - way.dot(normal) * normal);
-      } else if (role == Role::line) {
+      const Role role = surface.role[v];
+      if (role == Role::line) {
         shift[v] = line_shift(drop, surface, v, factor, sharp);
-      } else if (role == Role::wetted) {
-        const Vector3d normal = drop.contact_normals().col(v), way = to_centroid(drop, v);
-        shift[v] = factor * (way - way.dot(normal) * normal);
+      } else if (is_free(v) || role == Role::wetted) {
+        const Vector3d normal = is_free(v) ? geometry.normal(v) : Vector3d(drop.contact_normals().col(v));
+        shift[v] = factor * (around.to_centroid - around.to_centroid.dot(normal) * normal);
       }
       if (is_moving(role) && shift[v].squaredNorm() > small * small)
         carried[v] += shift[v].dot(surface_gradient(drop, surface.wet_face, arrays.deformation, v));
-      if (is_on_surface(role) && !colliding) shift[v] += offset * geometry.normal(v);
     }
   });
+  const double offset = volume_offset(drop, options.edge_min, surface);
   Columns x = drop.positions();
-  for (std::uint32_t v = 0; v < n; ++v) x.col(v) += shift[v];
-  arrays.deformation = carried;
+  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+      x.col(v) += shift[v];
+      if (offset != 0 && drop.connectivity().degree(v) > 3 && is_free(v)) x.col(v) += offset * geometry.normal(v);
+    }
+  });
+  arrays.deformation.swap(carried);
 }
 
 }  // namespace meniscus

@@ -13,7 +13,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// In lengths of edge_min: what a vertex may move on its own, go into a solid, and be offset for the volume.
-constexpr double most_move = 0.5, most_depth = 0.2, most_offset = 0.05;
+constexpr double most_move = 0.5, most_depth = 0.2;
 /// A drop that turns by less in a substep (radians) keeps its rotation, whatever becomes of its shape.
 constexpr double least_turn = 1e-12;
 /// Films lower than this (in lengths of edge_min) come down no further.
@@ -137,16 +137,6 @@ void find_contact_anew(Drop& drop, const std::vector<Solid>& solids, double time
   apply_external_forces(drop, solids, time, 0, options);
 }
 
-/// What the free surface must be offset by for the volume (cm), within bounds.
-double volume_offset(const Drop& drop, double edge_min, const PressureSurface& surface) {
-  const SurfaceGeometry& geometry = drop.workspace().geometry;
-  double area = 0;
-  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
-    if (is_on_surface(surface.role[v]) && !is_colliding(drop.contact()[v])) area += geometry.area_vector(v).norm() / 3;
-  const double missing = drop.target_volume() - geometry.volume(), most = most_offset * edge_min;
-  return area > 0 ? std::clamp(missing / area, -most, most) : 0;
-}
-
 /// U + rotation x r + u n on the free surface, without what would go into a solid that it touches.
 Vector3d surface_velocity(const Drop& drop, const Motion& motion, const PressureArrays& arrays, std::uint32_t v) {
   const Vector3d r = drop.positions().col(v) - arrays.surface.center;
@@ -223,8 +213,7 @@ PressureReport PressureStep::move() {
   let_go(drop_, solids_, options_, arrays);
   find_contact_anew(drop_, solids_, time_ + dt_, options_.edge_max);
 
-  drop_.workspace().geometry.compute(std::as_const(drop_).positions(), drop_.connectivity());
-  even_out(drop_, options_, options_.smoothing, volume_offset(drop_, options_.edge_min, surface), arrays);
+  even_out(drop_, options_, arrays);
   measure_solid(std::as_const(drop_).positions(), drop_.connectivity(), surface);
   if (turns) {  // the angular momentum stays
     const Matrix3d inertia = inertia_about(surface.center, std::as_const(drop_).positions(), drop_.connectivity());

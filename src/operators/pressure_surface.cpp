@@ -128,11 +128,8 @@ void look_at_vertex(const Drop& drop, std::uint32_t v, PressureSurface& surface)
   std::fill(row, row + Connectivity::width, 0.0);
   if (ring.degree == 0) return;
   double* weight = row;
-  if (ring.degree > Connectivity::width) {
-    auto& long_row = surface.stiffness.long_weight[drop.connectivity().long_ring(v)];
-    long_row.resize(static_cast<std::size_t>(ring.degree));
-    weight = long_row.data();
-  }
+  if (ring.degree > Connectivity::width)
+    weight = surface.stiffness.long_weight[drop.connectivity().long_ring(v)].data();
   const bool colliding = is_colliding(drop.contact()[v]);
   const RingSums sums =
       colliding ? ring_sums(drop, surface.wet_face, v, weight) : ring_sums_off_solids(drop, v, weight);
@@ -179,7 +176,7 @@ void resize(std::size_t n, const Connectivity& connectivity, PressureSurface& su
                       &surface.head, &surface.stiffness.diagonal})
     array->resize(n);
   surface.stiffness.weight.resize(Connectivity::width * n);
-  surface.stiffness.long_weight.resize(connectivity.long_rings().size());
+  surface.stiffness.fit_long_rings(connectivity);
 }
 
 }  // namespace

@@ -29,6 +29,14 @@ class SurfaceGeometry {
   /// and a third of its (zero) area at each corner. Cost: two passes, no allocation unless the mesh grew.
   void compute(const ConstColumns& positions, const Connectivity& connectivity);
 
+  /// Vertex v's area vector, and the normal that goes with it, where vertices have moved since: the rest stays as it
+  /// was computed. Precondition: compute() was called for the mesh.
+  void set_area_vector(std::uint32_t v, const Eigen::Vector3d& area_vector) {
+    area_vector_[v] = area_vector;
+    const double length = area_vector.norm();
+    normal_[v] = length > 0 ? Eigen::Vector3d(area_vector / length) : Eigen::Vector3d::Zero();
+  }
+
   const std::vector<FaceGeometry>& faces() const { return faces_; }
   /// Sum of the area vectors around vertex v: three times the gradient of the volume (cm^2).
   Eigen::Vector3d area_vector(std::uint32_t v) const { return area_vector_[v]; }

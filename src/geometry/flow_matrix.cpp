@@ -48,7 +48,7 @@ void assemble_flow_matrix(const Connectivity& connectivity, const SurfaceGeometr
   const std::size_t n = connectivity.num_rows(), num_long = connectivity.long_rings().size();
   matrix.diagonal.resize(n);
   matrix.weight.resize(width * n);
-  matrix.long_weight.resize(num_long);
+  matrix.fit_long_rings(connectivity);
   const RingMatrix& half_sums = geometry.edge_weights();
   const double floor = clamp_negative ? 0.0 : -std::numeric_limits<double>::infinity();
   const auto set_diagonal = [&](std::uint32_t v, double sum) {
@@ -66,7 +66,6 @@ void assemble_flow_matrix(const Connectivity& connectivity, const SurfaceGeometr
   });
   for (std::size_t k = 0; k < num_long; ++k) {
     const std::vector<double>& half_sum = half_sums.long_weight[k];
-    matrix.long_weight[k].resize(half_sum.size());
     set_diagonal(connectivity.long_rings()[k].vertex, scale_weights(half_sum.data(), static_cast<int>(half_sum.size()),
                                                                     s, floor, matrix.long_weight[k].data()));
   }

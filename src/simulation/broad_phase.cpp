@@ -3,6 +3,8 @@
 
 #include "meniscus/core/index_sets.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -51,6 +53,12 @@ const std::vector<std::array<std::uint32_t, 2>>& BroadPhase::find_pairs(const st
   }
   std::sort(pairs_.begin(), pairs_.end());
   return pairs_;
+}
+
+const std::vector<std::array<std::uint32_t, 2>>& BroadPhase::find_pairs(const std::vector<Drop>& drops) {
+  boxes_.resize(drops.size());
+  tbb::parallel_for(std::size_t{0}, drops.size(), [&](std::size_t d) { boxes_[d] = bounding_box(drops[d]); });
+  return find_pairs(boxes_);
 }
 
 std::vector<std::vector<std::uint32_t>> groups_of(std::size_t n,

@@ -78,9 +78,9 @@ MergeReport merge_touching_drops(std::vector<Drop>& drops, BroadPhase& broad_pha
                                  Remeshers& remeshers) {
   MergeReport report;
   if (drops.size() < 2) return report;
-  std::vector<Eigen::AlignedBox3d> boxes(drops.size());
-  tbb::parallel_for(std::size_t{0}, drops.size(), [&](std::size_t d) { boxes[d] = bounding_box(drops[d]); });
-  const Pairs meeting = meeting_pairs(drops, boxes, broad_phase.find_pairs(boxes));
+  const Pairs& near = broad_phase.find_pairs(drops);
+  if (near.empty()) return report;
+  const Pairs meeting = meeting_pairs(drops, broad_phase.boxes(), near);
   if (meeting.empty()) return report;
 
   const auto groups = groups_of(drops.size(), meeting);

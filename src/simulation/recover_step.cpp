@@ -41,7 +41,17 @@ std::string attempt(Drop& drop, double time, double dt, const StepOptions& optio
   } catch (const NumericsError& error) {
     return error.what();
   }
-  return blow_up(drop, kept.positions());
+  return blow_up(drop, kept);
+}
+
+/// Whether a drop is where it was, but for its slack, when a look at its faces found nothing. Draws what moved since
+/// `kept` from the slack.
+bool is_as_last_seen(Drop& drop, const KeptState& kept) {
+  const double slack = drop.slack();
+  drop.set_slack(0);
+  if (!(slack > 0) || !drop.workspace().films.empty() || !kept.has_contact_of(drop)) return false;
+  drop.set_slack(std::max(0.0, slack - kept.moved(drop, slack)));
+  return drop.slack() > 0 && drop.velocities().allFinite();
 }
 
 /// `kept` is the drop as it is.
@@ -71,8 +81,12 @@ void recurse(Drop& drop, double time, double dt, const StepOptions& options, Ste
 
 }  // namespace
 
-std::string blow_up(Drop& drop, const Eigen::Matrix3Xd& before) {
-  const FaceChanges changes = find_face_changes(drop, before, drop.workspace().violent_faces);
+std::string blow_up(Drop& drop, const KeptState& kept) {
+  if (is_as_last_seen(drop, kept)) {
+    drop.workspace().violent_faces.clear();
+    return {};
+  }
+  const FaceChanges changes = find_face_changes(drop, kept.positions(), drop.workspace().violent_faces);
   if (!std::isfinite(changes.volume) || !drop.velocities().allFinite()) return "a position or velocity is not finite";
   if (changes.turned_area > most_turned * changes.area)
     return fmt::format("{:.0f} % of the surface turned over", 100 * changes.turned_area / changes.area);
@@ -84,10 +98,11 @@ std::string blow_up(Drop& drop, const Eigen::Matrix3Xd& before) {
   return {};
 }
 
-void check_not_crumpled(const std::vector<Drop>& pieces, double volume_before, int id) {
-  double volume = 0;
-  std::size_t faces = 0;
-  for (const Drop& piece : pieces) {
+void check_not_crumpled(const Drop& drop, const std::vector<Drop>& cut_off, double volume_before, int id) {
+  if (touches_solid(drop)) return;
+  double volume = drop.volume();
+  std::size_t faces = drop.mesh().number_of_faces();
+  for (const Drop& piece : cut_off) {
     if (touches_solid(piece)) return;
     volume += piece.volume();
     faces += piece.mesh().number_of_faces();

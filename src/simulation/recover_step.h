@@ -11,18 +11,19 @@ namespace meniscus {
 
 /// Why a drop is not fit to go on after its operators ran, or "" if it is:
 /// - a position or velocity is not finite,
-/// - more than a twentieth of the surface turned over: faces whose normal turned by more than 90 degrees since
-///   `before`,
+/// - more than a twentieth of the surface turned over: faces whose normal turned by more than 90 degrees since `kept`,
+///   the start of the substep,
 /// - the surface is more than twice what it was,
-/// - the volume went off its target by more than half of that since `before`.
+/// - the volume went off its target by more than half of that since then.
 /// The limits are far above what any sound substep does (docs/MODELS.md). One pass over faces, which marks violent ones
-/// in workspace().violent_faces (find_face_changes).
-std::string blow_up(Drop& drop, const Eigen::Matrix3Xd& before);
+/// in workspace().violent_faces (find_face_changes); none while the drop's slack lasts, from which it draws.
+std::string blow_up(Drop& drop, const KeptState& kept);
 
 /// Too long steps of Level::paper crumple a drop in the air bit by bit, with nothing in any one substep that would take
 /// it back; mending and remeshing then smooth the creases away, and a part of the drop with them. Throws NumericsError
-/// if `pieces`, what came of a drop of volume_before (cm^3), hold another volume; small drops and drops on solids pass.
-void check_not_crumpled(const std::vector<Drop>& pieces, double volume_before, int id);
+/// if the drop and what was cut off it hold another volume than volume_before (cm^3), its volume before that; small
+/// drops and drops on solids pass.
+void check_not_crumpled(const Drop& drop, const std::vector<Drop>& cut_off, double volume_before, int id);
 
 /// The operators of a substep: moves the drop from time - dt to time. Returns by what share of its target the volume
 /// was off before it was corrected.

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace meniscus {
 namespace {
@@ -91,9 +92,13 @@ void give_back_volume(Drop& drop, const StepOptions& options) {
   const double target = drop.target_volume();
   if (drop.num_rows() == 0 || std::abs(drop.volume() - target) < least_volume_error * target) return;
   restore_volume(drop, target, options.band.edge_max);
+  drop.set_slack(0);
 }
 
-LastSound last_sound(const Drop& drop, const Eigen::Matrix3Xd& positions, const std::vector<Solid>& solids, double time,
+/// After a look that found nothing vertices move by this share of edge_min before the next one.
+constexpr double slack_share = 1e-3;
+
+LastSound last_sound(const Drop& drop, const ConstColumns& positions, const std::vector<Solid>& solids, double time,
                      double dt) {
   LastSound last{positions};
   const Solid* const holder = holder_of(drop, solids);
@@ -103,17 +108,19 @@ LastSound last_sound(const Drop& drop, const Eigen::Matrix3Xd& positions, const 
   return last;
 }
 
-/// remesh_and_split, before specks are looked at. `after` says for what a piece may be found unsound.
-std::vector<Drop> change_topology(Drop drop, const Eigen::Matrix3Xd& before, const std::vector<Solid>& solids,
-                                  double time, double dt, const StepOptions& options, Remesher& remesher,
-                                  StageClock& clock, StepReport& report, const char*& after) {
+/// remesh_and_split, before specks are looked at. `after` says for what a drop may be found unsound.
+bool change_topology(Drop& drop, std::vector<Drop>& cut_off, const ConstColumns& before,
+                     const std::vector<Solid>& solids, double time, double dt, const StepOptions& options,
+                     Remesher& remesher, StageClock& clock, StepReport& report, const char*& after) {
   after = "remeshing";
-  if (options.remesh) {
+  const bool has_to_look = options.remesh && !(drop.slack() > 0);
+  if (has_to_look) {
     watch_faces(drop, drop.workspace().violent_faces);
     watch_bends(drop);
     watch_thin_sheets(drop, drop.workspace().geometry.area(), options.band);
   }
-  if (options.remesh && may_fold(drop, merge_options(options))) {
+  const bool is_watched = has_to_look && may_fold(drop, merge_options(options));
+  if (is_watched) {
     MergeReport merge;
     auto mended = mend_folds(drop, last_sound(drop, before, solids, time, dt), merge_options(options), remesher, merge);
     report += merge;
@@ -121,50 +128,60 @@ std::vector<Drop> change_topology(Drop drop, const Eigen::Matrix3Xd& before, con
     if (mended) {
       for (Drop& piece : *mended) give_back_volume(piece, options);
       after = "a fold was united";
-      return *std::move(mended);
+      return replace_by_pieces(drop, cut_off, *std::move(mended));
     }
   }
-  std::vector<Drop> pieces;
   RemeshReport remeshed;
-  if (options.remesh) {
+  if (has_to_look) {
     remeshed = remesher.remesh(drop, remesh_options(options));
-    const bool may_be_off = remeshed.changed() || !drop.workspace().films.empty() || options.level == Level::pressure;
-    if (may_be_off && remeshed.cuts == 0) give_back_volume(drop, options);
+    if (!is_watched && !remeshed.changed()) drop.set_slack(slack_share * options.band.edge_min);
   }
+  const bool may_be_off = remeshed.changed() || !drop.workspace().films.empty() || options.level == Level::pressure;
+  if (options.remesh && may_be_off && remeshed.cuts == 0) give_back_volume(drop, options);
   if (!remeshed.changed()) report.skip(Stage::remesh);
   report.edge_operations += remeshed.splits + remeshed.collapses + remeshed.flips + remeshed.lifts;
   report.cuts += remeshed.cuts;
   clock.done(Stage::remesh);
-  if (remeshed.cuts > 0) {
-    SplitReport split;
-    pieces = split_components(std::move(drop), split, least_volume(options.band.edge_min));
-    report.deleted += split.deleted + split.deleted_empty;
-    for (Drop& piece : pieces) {
-      stiffen_speck(piece, options.band);
-      give_back_volume(piece, options);
-    }
-    after = "a split";
-  } else {
-    pieces.push_back(std::move(drop));
+  if (remeshed.cuts == 0) {
     report.skip(Stage::split);
+    clock.done(Stage::split);
+    return true;
   }
+  SplitReport split;
+  std::vector<Drop> pieces = split_components(std::move(drop), split, least_volume(options.band.edge_min));
+  report.deleted += split.deleted + split.deleted_empty;
+  for (Drop& piece : pieces) {
+    stiffen_speck(piece, options.band);
+    give_back_volume(piece, options);
+  }
+  after = "a split";
   clock.done(Stage::split);
-  return pieces;
+  return replace_by_pieces(drop, cut_off, std::move(pieces));
 }
 
 }  // namespace
 
-std::vector<Drop> remesh_and_split(Drop drop, const Eigen::Matrix3Xd& before, const std::vector<Solid>& solids,
-                                   double time, double dt, const StepOptions& options, Remesher& remesher,
-                                   StageClock& clock, StepReport& report) {
+bool replace_by_pieces(Drop& drop, std::vector<Drop>& cut_off, std::vector<Drop> pieces) {
+  if (pieces.empty()) return false;
+  drop = std::move(pieces.front());
+  std::move(pieces.begin() + 1, pieces.end(), std::back_inserter(cut_off));
+  return true;
+}
+
+bool remesh_and_split(Drop& drop, std::vector<Drop>& cut_off, const ConstColumns& before,
+                      const std::vector<Solid>& solids, double time, double dt, const StepOptions& options,
+                      Remesher& remesher, StageClock& clock, StepReport& report) {
   const std::uint64_t version = drop.topology_version();
+  const std::size_t first = cut_off.size();
   const char* after = nullptr;
-  std::vector<Drop> pieces =
-      change_topology(std::move(drop), before, solids, time, dt, options, remesher, clock, report, after);
-  report.rounded += round_off_knots(pieces, version, solids, time, options.band);
-  if (options.verify != Verify::nothing)
-    for (const Drop& piece : pieces) verify_topology(piece, after);
-  return pieces;
+  if (!change_topology(drop, cut_off, before, solids, time, dt, options, remesher, clock, report, after)) return false;
+  const auto finish = [&](Drop& piece) {
+    report.rounded += round_off_knot(piece, version, solids, time, options.band);
+    if (options.verify != Verify::nothing) verify_topology(piece, after);
+  };
+  finish(drop);
+  std::for_each(cut_off.begin() + static_cast<std::ptrdiff_t>(first), cut_off.end(), finish);
+  return true;
 }
 
 }  // namespace meniscus

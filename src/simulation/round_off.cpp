@@ -73,16 +73,12 @@ Drop rounded_off(const Drop& drop, const std::vector<Solid>& solids, double time
   return ball;
 }
 
-std::size_t round_off_knots(std::vector<Drop>& pieces, std::uint64_t version, const std::vector<Solid>& solids,
-                            double time, const EdgeBand& band) {
-  std::size_t rounded = 0;
-  for (Drop& piece : pieces) {
-    if (!is_speck(piece, band) || (piece.topology_version() == version && !is_watched(piece)) || !is_knot(piece))
-      continue;
-    piece = rounded_off(piece, solids, time, 0, band);
-    ++rounded;
-  }
-  return rounded;
+bool round_off_knot(Drop& drop, std::uint64_t version, const std::vector<Solid>& solids, double time,
+                    const EdgeBand& band) {
+  if (!is_speck(drop, band) || (drop.topology_version() == version && !is_watched(drop)) || !is_knot(drop))
+    return false;
+  drop = rounded_off(drop, solids, time, 0, band);
+  return true;
 }
 
 }  // namespace meniscus

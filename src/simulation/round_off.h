@@ -23,10 +23,10 @@ bool has_no_shape(const Drop& drop, const EdgeBand& band);
 /// and touches nothing. Keeps that velocity, id, target volume and inflow.
 Drop rounded_off(const Drop& drop, const std::vector<Solid>& solids, double time, double dt, const EdgeBand& band);
 
-/// Rounds off those of a substep's pieces that are specks and meet themselves, are turned over or have but four
-/// faces: few vertices leave no other way to mend them. Looks at what changed only: pieces whose topology version is
-/// not `version`, or that are watched for folds. Returns how many.
-std::size_t round_off_knots(std::vector<Drop>& pieces, std::uint64_t version, const std::vector<Solid>& solids,
-                            double time, const EdgeBand& band);
+/// Rounds off a speck that meets itself, is turned over or has but four faces: few vertices leave no other way to mend
+/// it. Looks at what changed only: drops whose topology version is not `version`, or that are watched for folds.
+/// Returns whether it did.
+bool round_off_knot(Drop& drop, std::uint64_t version, const std::vector<Solid>& solids, double time,
+                    const EdgeBand& band);
 
 }  // namespace meniscus

@@ -3,7 +3,6 @@
 
 #include "meniscus/core/error.h"
 #include "meniscus/operators/external_forces.h"
-#include "meniscus/simulation/approaching.h"
 #include "meniscus/simulation/check_frame.h"
 #include "sleep.h"
 #include "step_parts.h"
@@ -12,7 +11,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <exception>
 #include <iterator>
 
 namespace meniscus {
@@ -90,60 +88,86 @@ StepReport Simulation::take_substep(double start) {
 }
 
 void Simulation::step_all(StepReport& report) {
-  std::vector<Cluster> clusters;
+  tasks_.resize(drops_.size());
+  for (Task& task : tasks_) {
+    task.cluster = nullptr;
+    task.leads = task.goes_on = true;
+    task.others.clear();
+    task.report = StepReport();
+    task.failure = nullptr;
+  }
   if (options_.merge && drops_.size() > 1)
-    clusters = clusters_of_approaching_drops(drops_, substep_length(), options_.band.edge_max, paths_);
-  else
-    for (std::uint32_t d = 0; d < drops_.size(); ++d) clusters.push_back({{d}, 1});
-  std::vector<std::vector<Drop>> results(clusters.size());
-  std::vector<StepReport> reports(clusters.size());
-  std::vector<std::exception_ptr> failures(clusters.size());
-  tbb::parallel_for(std::size_t{0}, clusters.size(), [&](std::size_t c) {
+    for (const Cluster& cluster : approach_.find_clusters(drops_, substep_length(), options_.band.edge_max))
+      for (const std::uint32_t d : cluster.drops) {
+        tasks_[d].cluster = &cluster;
+        tasks_[d].leads = d == cluster.drops.front();
+      }
+  tbb::parallel_for(std::size_t{0}, drops_.size(), [&](std::size_t d) {
+    Task& task = tasks_[d];
+    if (!task.leads) return;
     try {
-      std::vector<Drop> drops;
-      for (const std::uint32_t d : clusters[c].drops) drops.push_back(std::move(drops_[d]));
-      results[c] = step_cluster(std::move(drops), clusters[c].substeps, reports[c]);
+      if (task.cluster != nullptr)
+        task.others = step_cluster(*task.cluster, task.report);
+      else
+        task.goes_on = step_one(drops_[d], task.others, time_, substep_length(), task.report);
     } catch (...) {
-      failures[c] = std::current_exception();
+      task.failure = std::current_exception();
     }
   });
-  for (const std::exception_ptr& failure : failures)  // the first cluster's, whichever thread was first
-    if (failure) std::rethrow_exception(failure);
-  drops_.clear();
-  for (std::size_t c = 0; c < clusters.size(); ++c) {
-    report += reports[c];
-    std::move(results[c].begin(), results[c].end(), std::back_inserter(drops_));
+  bool are_same = true;
+  for (const Task& task : tasks_) {
+    if (task.failure) std::rethrow_exception(task.failure);  // the first drop's, whichever thread was first
+    report += task.report;
+    are_same = are_same && task.cluster == nullptr && task.goes_on && task.others.empty();
   }
+  if (are_same) return;
+  std::vector<Drop> next;
+  for (std::size_t d = 0; d < drops_.size(); ++d) {
+    if (tasks_[d].cluster == nullptr && tasks_[d].goes_on) next.push_back(std::move(drops_[d]));
+    std::move(tasks_[d].others.begin(), tasks_[d].others.end(), std::back_inserter(next));
+  }
+  drops_ = std::move(next);
 }
 
-std::vector<Drop> Simulation::step_cluster(std::vector<Drop> drops, int substeps, StepReport& report) {
-  BroadPhase broad_phase;
-  const double dt = substep_length() / substeps;
+bool Simulation::step_one(Drop& drop, std::vector<Drop>& cut_off, double time, double dt, StepReport& report) {
   const SleepOptions sleep = sleep_options(options_.band);
-  for (int k = substeps - 1; k >= 0; --k) {
+  if (sleep_ && is_asleep(drop, sleep)) {
+    report.asleep_triangles += drop.mesh().number_of_faces();
+    ++report.asleep;
+    return true;
+  }
+  if (drop.num_rows() <= most_rows_to_lend_to && drops_.size() > 1) {
+    Workspace& workspace = workspaces_.local();
+    workspace.solver.forget();
+    drop.lend_workspace(&workspace);
+  }
+  StepReport of_drop;
+  const std::size_t first = cut_off.size();
+  const bool goes_on = step_in_place(drop, cut_off, solids_, time, dt, options_, remeshers_.local(), of_drop);
+  report += of_drop;
+  const auto finish = [&](Drop& piece) {
+    piece.lend_workspace(nullptr);
+    if (sleep_) count_rest(piece, dt, of_drop.edge_operations > 0, sleep);
+  };
+  if (goes_on) finish(drop);
+  for (std::size_t p = first; p < cut_off.size(); ++p) {
+    finish(cut_off[p]);
+    cut_off[p].set_id(no_id);
+  }
+  return goes_on;
+}
+
+std::vector<Drop> Simulation::step_cluster(const Cluster& cluster, StepReport& report) {
+  std::vector<Drop> drops;
+  for (const std::uint32_t d : cluster.drops) drops.push_back(std::move(drops_[d]));
+  BroadPhase broad_phase;
+  const double dt = substep_length() / cluster.substeps;
+  for (int k = cluster.substeps - 1; k >= 0; --k) {
     std::vector<Drop> next;
     for (Drop& drop : drops) {
-      if (sleep_ && is_asleep(drop, sleep)) {
-        report.asleep_triangles += drop.mesh().number_of_faces();
-        ++report.asleep;
-        next.push_back(std::move(drop));
-        continue;
-      }
-      StepReport of_drop;
-      if (drop.num_rows() <= most_rows_to_lend_to && drops_.size() > 1) {
-        Workspace& workspace = workspaces_.local();
-        workspace.solver.forget();
-        drop.lend_workspace(&workspace);
-      }
-      std::vector<Drop> pieces =
-          step_drop(std::move(drop), solids_, time_ - k * dt, dt, options_, remeshers_.local(), of_drop);
-      for (Drop& piece : pieces) piece.lend_workspace(nullptr);
-      report += of_drop;
-      for (std::size_t p = 0; p < pieces.size(); ++p) {
-        if (p > 0) pieces[p].set_id(no_id);
-        if (sleep_) count_rest(pieces[p], dt, of_drop.edge_operations > 0, sleep);
-        next.push_back(std::move(pieces[p]));
-      }
+      std::vector<Drop> cut_off;
+      if (step_one(drop, cut_off, time_ - k * dt, dt, report)) next.push_back(std::move(drop));
+      std::move(cut_off.begin(), cut_off.end(), std::back_inserter(next));
     }
     drops = std::move(next);
     if (k > 0) merge(drops, broad_phase, report);

@@ -276,15 +276,9 @@ double deform(Drop& drop, const std::vector<Solid>& solids, double time, double 
   return volume.relative_error_before;
 }
 
-std::vector<Drop> one_piece(Drop drop) {
-  std::vector<Drop> pieces;
-  pieces.push_back(std::move(drop));
-  return pieces;
-}
-
-/// One substep: operators, remesh, split.
-std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double time, double dt,
-                          const StepOptions& options, Remesher& remesher, StepReport& report) {
+/// One substep: operators, remesh, split. As step_in_place.
+bool substep(Drop& drop, std::vector<Drop>& cut_off, const std::vector<Solid>& solids, double time, double dt,
+             const StepOptions& options, Remesher& remesher, StepReport& report) {
   const auto move = [&](Drop& moving, double to, double step, const StepOptions& at, StepReport& sum) {
     return deform(moving, solids, to, step, at, sum);
   };
@@ -293,43 +287,62 @@ std::vector<Drop> substep(Drop drop, const std::vector<Solid>& solids, double ti
   } catch (const NumericsError&) {
     if (!has_no_shape(drop, options.band)) throw;
     ++report.rounded;
-    return one_piece(rounded_off(drop, solids, time, dt, options.band));
+    drop = rounded_off(drop, solids, time, dt, options.band);
+    return true;
   }
   StageClock clock(options.clock, report);
   const int id = drop.id();
   const double volume = options.level == Level::paper ? drop.volume() : 0;
-  const Eigen::Matrix3Xd& before = drop.workspace().kept.positions();
-  std::vector<Drop> pieces =
-      remesh_and_split(std::move(drop), before, solids, time, dt, options, remesher, clock, report);
-  if (options.level == Level::paper) check_not_crumpled(pieces, volume, id);
-  return pieces;
+  const ConstColumns before = drop.workspace().kept.positions();
+  const bool goes_on = remesh_and_split(drop, cut_off, before, solids, time, dt, options, remesher, clock, report);
+  if (options.level == Level::paper && goes_on) check_not_crumpled(drop, cut_off, volume, id);
+  return goes_on;
+}
+
+/// The drop, if it is there, and the pieces that were cut off it, in one list.
+std::vector<Drop> all_pieces(bool is_there, Drop& drop, std::vector<Drop> cut_off) {
+  if (is_there) cut_off.insert(cut_off.begin(), std::move(drop));
+  return cut_off;
 }
 
 }  // namespace
 
-std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt,
-                            const StepOptions& options, Remesher& remesher, StepReport& report) {
+bool step_in_place(Drop& drop, std::vector<Drop>& cut_off, const std::vector<Solid>& solids, double time, double dt,
+                   const StepOptions& options, Remesher& remesher, StepReport& report) {
   if (options.level == Level::pressure)
-    return step_by_pressure(std::move(drop), solids, time, dt, options, remesher, report);
+    return step_by_pressure(drop, cut_off, solids, time, dt, options, remesher, report);
   int left = num_substeps(drop, solids, time, dt, options);
   report.substeps = std::max(report.substeps, left);
   const double part = dt / left, inflow = drop.inflow();
-  std::vector<Drop> pieces = one_piece(std::move(drop));
-  while (left > 0 && pieces.size() == 1) {
+  std::vector<Drop> others;
+  while (left > 0 && others.empty()) {
     --left;
-    pieces.front().set_target_volume(pieces.front().target_volume() + inflow * part);
-    pieces = substep(std::move(pieces.front()), solids, time - left * part, part, options, remesher, report);
+    drop.set_target_volume(drop.target_volume() + inflow * part);
+    if (!substep(drop, others, solids, time - left * part, part, options, remesher, report)) return false;
   }
+  if (others.empty()) {
+    drop.set_inflow(inflow);  // a fold that was united made a new drop
+    report.triangles += drop.mesh().number_of_faces();
+    return true;
+  }
+  std::vector<Drop> pieces = all_pieces(true, drop, std::move(others));
   keep_inflow(pieces, solids, inflow);
-  if (left == 0 || pieces.empty()) {
+  if (left == 0) {
     for (const Drop& piece : pieces) report.triangles += piece.mesh().number_of_faces();
-    return pieces;
+    return replace_by_pieces(drop, cut_off, std::move(pieces));
   }
   std::vector<Drop> all;  // a small piece needs shorter substeps than what it came from
   for (Drop& piece : pieces)
     for (Drop& part_of_it : step_drop(std::move(piece), solids, time, left * part, options, remesher, report))
       all.push_back(std::move(part_of_it));
-  return all;
+  return replace_by_pieces(drop, cut_off, std::move(all));
+}
+
+std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt,
+                            const StepOptions& options, Remesher& remesher, StepReport& report) {
+  std::vector<Drop> cut_off;
+  const bool goes_on = step_in_place(drop, cut_off, solids, time, dt, options, remesher, report);
+  return all_pieces(goes_on, drop, std::move(cut_off));
 }
 
 }  // namespace meniscus

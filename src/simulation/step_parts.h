@@ -28,6 +28,9 @@ class StageClock {
 /// The radius of the ball of the drop's volume (cm).
 inline double ball_radius(const Drop& drop) { return std::cbrt(drop.target_volume() * 0.75 / 3.14159265358979323846); }
 
+/// Puts the first of the pieces in the drop's place and the others behind `cut_off`. Returns whether there was one.
+bool replace_by_pieces(Drop& drop, std::vector<Drop>& cut_off, std::vector<Drop> pieces);
+
 /// What sources gave the drop (cm^3/s) goes to the one of its pieces that hangs from a source; to the first if none
 /// does.
 void keep_inflow(std::vector<Drop>& pieces, const std::vector<Solid>& solids, double inflow);
@@ -40,14 +43,15 @@ const Solid* holder_of(const Drop& drop, const std::vector<Solid>& solids);
 MergeOptions merge_options(const StepOptions& step);
 
 /// The end of every substep of dt (s), at `time` (s): mends folds (`before`: the positions at its start), brings the
-/// edges into the band, takes apart what that cut, and rounds off specks that meet themselves.
-std::vector<Drop> remesh_and_split(Drop drop, const Eigen::Matrix3Xd& before, const std::vector<Solid>& solids,
-                                   double time, double dt, const StepOptions& options, Remesher& remesher,
-                                   StageClock& clock, StepReport& report);
+/// edges into the band, takes apart what that cut, and rounds off specks that meet themselves. `cut_off` and what is
+/// returned are as those of step_in_place.
+bool remesh_and_split(Drop& drop, std::vector<Drop>& cut_off, const ConstColumns& before,
+                      const std::vector<Solid>& solids, double time, double dt, const StepOptions& options,
+                      Remesher& remesher, StageClock& clock, StepReport& report);
 
-/// step_drop at Level::pressure: substeps as long as the motion allows, each tried and taken back if it was
+/// step_in_place at Level::pressure: substeps as long as the motion allows, each tried and taken back if it was
 /// too long.
-std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, double time, double dt,
-                                   const StepOptions& options, Remesher& remesher, StepReport& report);
+bool step_by_pressure(Drop& drop, std::vector<Drop>& cut_off, const std::vector<Solid>& solids, double time, double dt,
+                      const StepOptions& options, Remesher& remesher, StepReport& report);
 
 }  // namespace meniscus

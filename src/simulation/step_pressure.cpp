@@ -33,12 +33,11 @@ PressureOptions pressure_options(const StepOptions& step) {
   return options;
 }
 
-/// A drop on its way through the step.
-struct Traveller {
-  Drop drop;
+/// How far a drop is on its way through the step.
+struct Way {
   double left;  ///< s to the end of the step
   double next;  ///< s to try
-  int substeps;
+  int substeps = 0;
 };
 
 /// One substep of at most `longest` (s): how long it was.
@@ -72,7 +71,7 @@ double substep_or_recover(Drop& drop, const std::vector<Solid>& solids, double t
     double dt = longest;
     try {
       dt = substep(drop, solids, time, longest, shortest, options, clock, report);
-      wrong = blow_up(drop, kept.positions());
+      wrong = blow_up(drop, kept);
     } catch (const NumericsError& error) {
       wrong = error.what();
     }
@@ -86,74 +85,102 @@ double substep_or_recover(Drop& drop, const std::vector<Solid>& solids, double t
   }
 }
 
-/// One substep of at most traveller.left. Writes what to try next.
-void take_substep(Traveller& traveller, const std::vector<Solid>& solids, double time, double shortest,
+/// One substep of at most way.left. Writes what to try next.
+void take_substep(Drop& drop, Way& way, const std::vector<Solid>& solids, double time, double shortest,
                   const StepOptions& options, const KeptState& kept, StageClock& clock, StepReport& report) {
-  const double dt =
-      substep_or_recover(traveller.drop, solids, time - traveller.left, std::min(traveller.next, traveller.left),
-                         shortest, options, kept, clock, report);
-  traveller.left -= dt;
-  if (traveller.left < 0.5 * shortest) {
-    traveller.drop.set_target_volume(traveller.drop.target_volume() + traveller.drop.inflow() * traveller.left);
-    traveller.left = 0;
+  const double dt = substep_or_recover(drop, solids, time - way.left, std::min(way.next, way.left), shortest, options,
+                                       kept, clock, report);
+  way.left -= dt;
+  if (way.left < 0.5 * shortest) {
+    drop.set_target_volume(drop.target_volume() + drop.inflow() * way.left);
+    way.left = 0;
   }
-  traveller.next = 2 * dt;
-  ++traveller.substeps;
+  way.next = 2 * dt;
+  ++way.substeps;
 }
 
 /// A speck on a solid of which most vertices were taken back rests there until the next step: it does not get free in
 /// shorter substeps either, and they would be of the shortest.
-void rest(Traveller& traveller, const std::vector<Solid>& solids, double time) {
-  Drop& speck = traveller.drop;
+void rest(Drop& speck, Way& way, const std::vector<Solid>& solids, double time) {
   const Solid& solid = *holder_of(speck, solids);
-  speck.positions().colwise() += solid.offset(time) - solid.offset(time - traveller.left);
+  speck.positions().colwise() += solid.offset(time) - solid.offset(time - way.left);
   speck.velocities().colwise() = solid.velocity(time);
-  speck.set_target_volume(speck.target_volume() + speck.inflow() * traveller.left);
-  traveller.left = 0;
+  speck.set_target_volume(speck.target_volume() + speck.inflow() * way.left);
+  speck.set_slack(0);
+  way.left = 0;
+}
+
+/// Takes a drop to the end of the step of dt, or until something is cut off it: that lies in `cut_off` then. Returns
+/// whether the drop goes on.
+bool travel(Drop& drop, Way& way, std::vector<Drop>& cut_off, const std::vector<Solid>& solids, double time, double dt,
+            const StepOptions& options, Remesher& remesher, StageClock& clock, StepReport& report) {
+  while (way.left > 0 && cut_off.empty()) {
+    KeptState& kept = drop.workspace().kept;
+    kept.keep(drop);
+    const double left_before = way.left, inflow = drop.inflow();
+    try {
+      take_substep(drop, way, solids, time, least_share * dt, options, kept, clock, report);
+    } catch (const NumericsError&) {
+      if (!has_no_shape(drop, options.band)) throw;
+      ++report.rounded;
+      drop.set_target_volume(drop.target_volume() + drop.inflow() * way.left);
+      drop = rounded_off(drop, solids, time, way.left, options.band);
+      way.left = 0;
+      return true;
+    }
+    report.substeps = std::max(report.substeps, way.substeps);
+    const std::size_t taken_back = report.taken_back;
+    if (!remesh_and_split(drop, cut_off, kept.positions(), solids, time - way.left, left_before - way.left, options,
+                          remesher, clock, report))
+      return false;
+    drop.set_inflow(inflow);  // a fold that was united made a new drop
+    const bool is_stuck = cut_off.empty() && 2 * (report.taken_back - taken_back) >= drop.num_rows() &&
+                          is_speck(drop, options.band) && touches_solid(drop);
+    if (is_stuck) rest(drop, way, solids, time);
+  }
+  if (cut_off.empty()) report.triangles += drop.mesh().number_of_faces();
+  return true;
+}
+
+/// A drop and the rest of its way.
+struct Traveller {
+  Drop drop;
+  Way way;
+};
+
+/// Puts what a drop became on the way, so that the first of it comes first.
+void send_pieces(Drop& drop, std::vector<Drop>& cut_off, const Way& way, double inflow,
+                 const std::vector<Solid>& solids, std::vector<Traveller>& on_the_way) {
+  cut_off.insert(cut_off.begin(), std::move(drop));
+  keep_inflow(cut_off, solids, inflow);
+  for (auto piece = cut_off.rbegin(); piece != cut_off.rend(); ++piece) on_the_way.push_back({std::move(*piece), way});
 }
 
 }  // namespace
 
-std::vector<Drop> step_by_pressure(Drop drop, const std::vector<Solid>& solids, double time, double dt,
-                                   const StepOptions& options, Remesher& remesher, StepReport& report) {
+bool step_by_pressure(Drop& drop, std::vector<Drop>& cut_off, const std::vector<Solid>& solids, double time, double dt,
+                      const StepOptions& options, Remesher& remesher, StepReport& report) {
   StageClock clock(options.clock, report);
+  Way way{dt, dt};
+  double inflow = drop.inflow();
+  std::vector<Drop> pieces;
+  if (!travel(drop, way, pieces, solids, time, dt, options, remesher, clock, report)) return false;
+  if (pieces.empty()) return true;
   std::vector<Traveller> on_the_way;
-  on_the_way.push_back({std::move(drop), dt, dt, 0});
   std::vector<Drop> arrived;
+  send_pieces(drop, pieces, way, inflow, solids, on_the_way);
   while (!on_the_way.empty()) {  // pieces arrive in the order in which they split off
-    Traveller traveller = std::move(on_the_way.back());
+    Traveller next = std::move(on_the_way.back());
     on_the_way.pop_back();
-    if (!(traveller.left > 0)) {
-      report.triangles += traveller.drop.mesh().number_of_faces();
-      arrived.push_back(std::move(traveller.drop));
-      continue;
-    }
-    KeptState& kept = traveller.drop.workspace().kept;
-    kept.keep(traveller.drop);
-    const double left_before = traveller.left;
-    try {
-      take_substep(traveller, solids, time, least_share * dt, options, kept, clock, report);
-    } catch (const NumericsError&) {
-      if (!has_no_shape(traveller.drop, options.band)) throw;
-      ++report.rounded;
-      traveller.drop.set_target_volume(traveller.drop.target_volume() + traveller.drop.inflow() * traveller.left);
-      arrived.push_back(rounded_off(traveller.drop, solids, time, traveller.left, options.band));
-      continue;
-    }
-    report.substeps = std::max(report.substeps, traveller.substeps);
-    const double inflow = traveller.drop.inflow();
-    const std::size_t taken_back = report.taken_back;
-    std::vector<Drop> pieces =
-        remesh_and_split(std::move(traveller.drop), kept.positions(), solids, time - traveller.left,
-                         left_before - traveller.left, options, remesher, clock, report);
-    keep_inflow(pieces, solids, inflow);
-    const bool is_stuck = pieces.size() == 1 && 2 * (report.taken_back - taken_back) >= pieces.front().num_rows() &&
-                          is_speck(pieces.front(), options.band) && touches_solid(pieces.front());
-    for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
-      on_the_way.push_back({std::move(*piece), traveller.left, traveller.next, traveller.substeps});
-    if (is_stuck) rest(on_the_way.back(), solids, time);
+    inflow = next.drop.inflow();
+    pieces.clear();
+    if (!travel(next.drop, next.way, pieces, solids, time, dt, options, remesher, clock, report)) continue;
+    if (pieces.empty())
+      arrived.push_back(std::move(next.drop));
+    else
+      send_pieces(next.drop, pieces, next.way, inflow, solids, on_the_way);
   }
-  return arrived;
+  return replace_by_pieces(drop, cut_off, std::move(arrived));
 }
 
 }  // namespace meniscus

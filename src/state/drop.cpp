@@ -69,6 +69,7 @@ Drop::Drop(const Drop& other)
       flow_version_(other.flow_version_),
       rest_time_(other.rest_time_),
       inflow_(other.inflow_),
+      slack_(other.slack_),
       id_(other.id_) {
   bind();
 }
@@ -101,8 +102,27 @@ bool Drop::collect_garbage(double share) {
 Eigen::AlignedBox3d bounding_box(const Drop& drop) {
   const ConstColumns x = drop.positions();
   Eigen::AlignedBox3d box;
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-    if (drop.connectivity().degree(i) > 0) box.extend(Eigen::Vector3d(x.col(i)));
+  const Eigen::Index n = x.cols();
+  if (n == 0) return box;
+  if (drop.mesh().number_of_removed_vertices() > 0) {
+    for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+      if (drop.connectivity().degree(i) > 0) box.extend(Eigen::Vector3d(x.col(i)));
+    return box;
+  }
+  // Four points are three registers of four numbers.
+  using Twelve = Eigen::Array<double, 12, 1>;
+  const auto four_points = [&](Eigen::Index i) { return Eigen::Map<const Twelve>(x.data() + 3 * i); };
+  Twelve least = x.col(0).replicate<4, 1>(), most = least;
+  Eigen::Index i = 0;
+  for (; i + 4 <= n; i += 4) {
+    least = least.min(four_points(i));
+    most = most.max(four_points(i));
+  }
+  for (int k = 0; k < 4; ++k) {
+    box.extend(Eigen::Vector3d(least.segment<3>(3 * k)));
+    box.extend(Eigen::Vector3d(most.segment<3>(3 * k)));
+  }
+  for (; i < n; ++i) box.extend(Eigen::Vector3d(x.col(i)));
   return box;
 }
 

@@ -26,7 +26,7 @@ FourMasks changes_much(const FourVectors& before, const FourVectors& now) {
 /// What find_face_changes looks at.
 class FaceLook {
  public:
-  FaceLook(Drop& drop, const Eigen::Matrix3Xd& before)
+  FaceLook(Drop& drop, const ConstColumns& before)
       : before_(before),
         x_(std::as_const(drop).positions()),
         solid_normals_(std::as_const(drop).contact_normals()),
@@ -79,7 +79,7 @@ class FaceLook {
     return is_colliding(contact_[face[0]]) && is_colliding(contact_[face[1]]) && is_colliding(contact_[face[2]]);
   }
 
-  const Eigen::Matrix3Xd& before_;
+  const ConstColumns before_;
   const ConstColumns x_, solid_normals_, normals_;
   const Contact* const contact_;
   const bool has_normals_, touches_solid_;
@@ -87,7 +87,7 @@ class FaceLook {
 };
 
 /// The areas, for the few substeps in which some face is violent.
-void add_areas(const Drop& drop, const Eigen::Matrix3Xd& before, FaceChanges& changes) {
+void add_areas(const Drop& drop, const ConstColumns& before, FaceChanges& changes) {
   const ConstColumns x = drop.positions();
   for (const auto& [a, b, c] : drop.connectivity().triangles()) {
     if (a == Connectivity::removed) continue;
@@ -111,7 +111,7 @@ FaceChanges& FaceChanges::operator+=(const FaceChanges& other) {
   return *this;
 }
 
-FaceChanges find_face_changes(Drop& drop, const Eigen::Matrix3Xd& before, std::vector<std::uint8_t>& violent) {
+FaceChanges find_face_changes(Drop& drop, const ConstColumns& before, std::vector<std::uint8_t>& violent) {
   const auto& triangles = drop.connectivity().triangles();
   const FaceLook look(drop, before);
   violent.resize(triangles.size());

@@ -17,7 +17,7 @@ namespace {
 /// holds it. Sets `velocity` to that of the same motion; on a solid to half of the mean against it, so that a drop that
 /// is taken back again and again comes to rest there.
 Eigen::Matrix3Xd carried_along(const Drop& drop, const LastSound& last, RigidMotion& velocity) {
-  const Eigen::Matrix3Xd& before = last.positions;
+  const ConstColumns before = last.positions;
   velocity = RigidMotion();
   if (touches_solid(drop)) {
     velocity.translation = 0.5 * (last.solid_velocity + mean_over_vertices(drop, drop.velocities()));
@@ -260,7 +260,7 @@ class TakeBack {
   FoldFinder& finder_;
   RigidMotion velocity_;
   const Eigen::Vector3d solid_velocity_;
-  const Eigen::Matrix3Xd& before_;
+  const ConstColumns before_;
   Eigen::Matrix3Xd sound_;  // where what is taken goes
   std::vector<std::uint8_t> is_back_;
   std::vector<std::uint32_t> taken_;

@@ -119,6 +119,30 @@ TEST(Step, ASpeckDoesNotDriveItself) {
   EXPECT_LT(bounding_box(drop).center().norm(), 0.02) << "cm, in 0.2 s; it was 1.26";
 }
 
+/// Faces are looked at again once vertices have moved by a thousandth of edge_min since a look found nothing.
+TEST(Step, ADropThatHardlyMovesIsNotLookedAtAgain) {
+  StepOptions options;
+  options.band = {0.02, 0.06, 0.5};
+  options.gravity.setZero();
+  Drop drop(make_icosphere({0, 0, 0}, 0.2, 3));
+  const double dt = 1.0 / 960, slack = 1e-3 * options.band.edge_min;
+  StepReport report;
+  for (int n = 0; n < 200; ++n) drop = step(std::move(drop), dt, dt, options, report);  // it comes to rest
+  const double before = drop.slack();
+  ASSERT_GT(before, 0);
+  const Eigen::Matrix3Xd x = drop.positions();
+  drop = step(std::move(drop), dt, dt, options, report);
+  const double moved = std::sqrt((drop.positions() - x).colwise().squaredNorm().maxCoeff());
+  ASSERT_LT(moved, 0.1 * slack);
+  EXPECT_NEAR(drop.slack(), before - moved, 1e-12) << "it draws from its slack";
+
+  drop.velocities().row(2).setConstant(1.5 * slack / dt);
+  drop = step(std::move(drop), dt, dt, options, report);
+  EXPECT_EQ(drop.slack(), slack) << "it moved further, was looked at, and nothing was found";
+  drop.topology_changed();
+  EXPECT_EQ(drop.slack(), 0);
+}
+
 TEST(Step, StaysFiniteAndSoundAtAnyTimeStep) {
   for (const Level level : {Level::paper, Level::calibrated})
     for (const double rate : {15.0, 60.0, 240.0, 960.0}) {

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -52,6 +53,79 @@ TEST(Drop, GarbageCollectionKeepsWhatIsAlive) {
   EXPECT_NEAR(drop.volume(), volume, 1e-15);
   for (Eigen::Index i = 0; i < drop.velocities().cols(); ++i)
     EXPECT_EQ(drop.velocities()(0, i), drop.positions()(2, i));
+}
+
+/// The box takes four vertices at a time, unless some are removed.
+TEST(Drop, ItsBoxHoldsExactlyItsVertices) {
+  for (int corners = 4; corners <= 13; ++corners) {  // a double pyramid: corners + 2 vertices
+    Mesh mesh;
+    const VertexIndex top = mesh.add_vertex({0.3, -0.2, 1.5}), bottom = mesh.add_vertex({0.1, 0.4, -1.25});
+    std::vector<VertexIndex> rim;
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2 * M_PI * k / corners;
+      rim.push_back(mesh.add_vertex({2 * std::cos(angle), 3 * std::sin(angle), 0.01 * k}));
+    }
+    for (int k = 0; k < corners; ++k) {
+      const VertexIndex a = rim[k], b = rim[(k + 1) % corners];
+      mesh.add_face(a, b, top);
+      mesh.add_face(b, a, bottom);
+    }
+    Drop drop{std::move(mesh)};
+    const auto expect_exact = [&] {
+      Eigen::AlignedBox3d exact;
+      for (const auto v : drop.mesh().vertices()) exact.extend(to_eigen(drop.mesh().point(v)));
+      const Eigen::AlignedBox3d box = bounding_box(drop);
+      EXPECT_EQ(box.min(), exact.min()) << corners;
+      EXPECT_EQ(box.max(), exact.max()) << corners;
+    };
+    expect_exact();
+    if (corners < 5) continue;
+    const VertexIndex gone = rim[0];  // (2, 0, 0), the only one so far out
+    CGAL::Euler::collapse_edge(drop.mesh().edge(drop.mesh().halfedge(gone, rim[1])), drop.mesh());
+    drop.connectivity().rebuild(drop.mesh());
+    ASSERT_EQ(drop.mesh().number_of_removed_vertices(), 1u);
+    expect_exact();
+  }
+}
+
+TEST(KeptState, TellsHowFarVerticesMovedAndWhetherContactChanged) {
+  Drop drop = ball();  // 92 vertices
+  KeptState kept;
+  kept.keep(drop);
+  EXPECT_EQ(kept.moved(drop, 1), 0);
+  drop.positions().col(7) += Eigen::Vector3d(0.03, 0, -0.04);
+  drop.positions().col(60) += Eigen::Vector3d(0, 0.01, 0);
+  EXPECT_NEAR(kept.moved(drop, 1), 0.05, 1e-15);
+  EXPECT_EQ(kept.moved(drop, 0.04), std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(kept.has_contact_of(drop));
+  drop.contact()[3] = Contact::line;
+  EXPECT_FALSE(kept.has_contact_of(drop));
+  kept.keep(drop);
+  EXPECT_TRUE(kept.has_contact_of(drop));
+  drop.contact()[3] = Contact::wetted;
+  EXPECT_FALSE(kept.has_contact_of(drop));
+  drop.set_slack(1);
+  kept.restore(drop);
+  EXPECT_TRUE(kept.has_contact_of(drop));
+  EXPECT_EQ(drop.slack(), 0) << "it was tried elsewhere since it was looked at";
+  for (const Eigen::Index at : {0, 50, 91}) {
+    Drop lost = ball();
+    kept.keep(lost);
+    lost.positions()(1, at) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(kept.moved(lost, 1), std::numeric_limits<double>::infinity()) << at;
+  }
+}
+
+TEST(KeptState, HoldsASmallerDropAfterALargerOne) {
+  Drop large = ball(), small(make_icosphere({1, 0, 0}, 0.1, 1));
+  KeptState kept;
+  kept.keep(large);
+  kept.keep(small);
+  ASSERT_EQ(kept.positions().cols(), small.positions().cols());
+  const Eigen::Matrix3Xd before = small.positions();
+  small.positions().row(0).array() += 5;
+  kept.restore(small);
+  EXPECT_EQ(Eigen::Matrix3Xd(small.positions()), before);
 }
 
 TEST(Drop, RefusesWhatIsNoDrop) {

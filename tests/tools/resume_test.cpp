@@ -132,7 +132,7 @@ TEST_F(Resume, ADamagedCheckpointGivesWayToTheOneBefore) {
 
 TEST_F(Resume, OnlyDamagedCheckpointsAreAnError) {
   fs::create_directory(path("out"));
-  write("out/checkpoint_00000004.bin", "meniscus checkpoint 2 5 00000000\nabcde");
+  write("out/checkpoint_00000004.bin", "meniscus checkpoint 3 5 00000000\nabcde");
   const Outcome outcome = tool("evolve scene.json --resume -o out");
   EXPECT_EQ(outcome.code, 3);
   EXPECT_TRUE(has(outcome.err, "--overwrite")) << outcome.err;

@@ -30,6 +30,7 @@ class ConstColumns : public Eigen::Map<const Eigen::Matrix3Xd> {
   using Base = Eigen::Map<const Eigen::Matrix3Xd>;
   ConstColumns(const double* data, Eigen::Index cols) : Base(data, 3, cols) {}
   ConstColumns(const Columns& columns) : Base(columns.data(), 3, columns.cols()) {}  // NOLINT: a view of a view
+  ConstColumns(const Eigen::Matrix3Xd& columns) : Base(columns.data(), 3, columns.cols()) {}  // NOLINT: and of these
 };
 
 static_assert(sizeof(Point) == 3 * sizeof(double) && sizeof(Vector) == 3 * sizeof(double),

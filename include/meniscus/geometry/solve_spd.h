@@ -52,7 +52,14 @@ struct SolveReport {
 struct RingMatrix {
   std::vector<double> diagonal;                  ///< n
   std::vector<double> weight;                    ///< 8 n, zero where padded
-  std::vector<std::vector<double>> long_weight;  ///< one a long ring
+  std::vector<std::vector<double>> long_weight;  ///< one a long ring, or more: rows that were needed once stay
+
+  /// Gives each long ring a row of its length.
+  void fit_long_rings(const Connectivity& connectivity) {
+    const auto& rings = connectivity.long_rings();
+    if (long_weight.size() < rings.size()) long_weight.resize(rings.size());
+    for (std::size_t k = 0; k < rings.size(); ++k) long_weight[k].resize(rings[k].neighbour.size());
+  }
 };
 
 /// The weights of vertex v's ring, one a neighbour.

@@ -18,8 +18,13 @@ class BroadPhase {
   /// All pairs i < j whose boxes meet (touching included), in ascending order. Empty boxes meet nothing.
   /// The view is void after the next call.
   const std::vector<std::array<std::uint32_t, 2>>& find_pairs(const std::vector<Eigen::AlignedBox3d>& boxes);
+  /// The same for the boxes of drops.
+  const std::vector<std::array<std::uint32_t, 2>>& find_pairs(const std::vector<Drop>& drops);
+  /// Those boxes, of the last call.
+  const std::vector<Eigen::AlignedBox3d>& boxes() const { return boxes_; }
 
  private:
+  std::vector<Eigen::AlignedBox3d> boxes_;
   std::vector<std::uint32_t> order_;
   std::vector<std::array<std::uint32_t, 2>> pairs_;
 };

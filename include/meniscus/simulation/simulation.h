@@ -2,11 +2,13 @@
 #pragma once
 
 #include "meniscus/scene/scene.h"
+#include "meniscus/simulation/approaching.h"
 #include "meniscus/simulation/choose_model.h"
 #include "meniscus/simulation/merge_touching.h"
 #include "meniscus/simulation/source.h"
 #include "meniscus/simulation/step.h"
 
+#include <exception>
 #include <type_traits>
 #include <vector>
 
@@ -73,7 +75,10 @@ class Simulation {
   double substep_length() const { return time_step_ / choice_.substeps; }  ///< s
   void take_choice(ModelChoice choice);
   void step_all(StepReport& report);
-  std::vector<Drop> step_cluster(std::vector<Drop> drops, int substeps, StepReport& report);
+  /// One drop by dt, to `time` (s), unless it sleeps. As step_in_place.
+  bool step_one(Drop& drop, std::vector<Drop>& cut_off, double time, double dt, StepReport& report);
+  /// Drops that step together, out of drops_. Returns what became of them.
+  std::vector<Drop> step_cluster(const Cluster& cluster, StepReport& report);
   void merge(std::vector<Drop>& drops, BroadPhase& broad_phase, StepReport& report);
   /// Takes the choice that was read. Throws FileError if that is none, or if a drop touches a solid that is not there.
   void finish_restored();
@@ -87,7 +92,18 @@ class Simulation {
   StepOptions options_;
   Remeshers remeshers_;
   tbb::enumerable_thread_specific<Workspace> workspaces_;  ///< lent to small drops in turn
-  BroadPhase paths_, places_;  ///< of swept boxes before a step and of boxes after it
+  Approach approach_;
+  BroadPhase places_;  ///< of boxes after a step
+  /// What step_all does with a drop, by place.
+  struct Task {
+    const Cluster* cluster = nullptr;  ///< that the drop goes with; nullptr: alone
+    bool leads = true;                 ///< the first of its cluster, which steps it
+    bool goes_on = true;               ///< the drop itself is still there
+    std::vector<Drop> others;          ///< what was cut off it, or became of its cluster
+    StepReport report;
+    std::exception_ptr failure;
+  };
+  std::vector<Task> tasks_;  ///< kept, so that a step allocates nothing
   SourceFeed feed_;
   ModelChoice choice_;
   bool is_chosen_ = false;  ///< the scene left the choice to the level "auto"

@@ -115,13 +115,16 @@ struct StepReport {
 RemeshOptions remesh_options(const StepOptions& step);
 
 /// One step of one drop, from time - dt to time (s): the paper's Figure 1 from external forces to
-/// mesh split. The drop is replaced by its pieces: usually one, more if it pinched off, none if it
-/// was too small to go on.
-/// It is cut into equal substeps where one would be too long: see docs/MODELS.md.
-/// `remesher` keeps working arrays from call to call: one a thread.
-/// A substep after which the drop is not fit to go on is taken back and done in halves: see StepReport::recoveries.
+/// mesh split. Pieces that pinched off go behind `cut_off`. Returns whether the drop goes on: false if it was too
+/// small, and then there are no pieces and the drop may only be assigned to or destroyed. It is cut into equal substeps
+/// where one would be too long: see docs/MODELS.md. `remesher` keeps working arrays from call to call: one a thread. A
+/// substep after which the drop is not fit to go on is taken back and done in halves: see StepReport::recoveries.
 /// Throws NumericsError if 1/64 of a substep fails still, but for a drop hardly larger than an edge, which becomes a
 /// ball (StepReport::rounded); SoundnessError if options.verify finds a drop unsound.
+bool step_in_place(Drop& drop, std::vector<Drop>& cut_off, const std::vector<Solid>& solids, double time, double dt,
+                   const StepOptions& options, Remesher& remesher, StepReport& report);
+
+/// The same. Returns what became of the drop: itself and its pieces in one list.
 std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt,
                             const StepOptions& options, Remesher& remesher, StepReport& report);
 

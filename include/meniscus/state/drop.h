@@ -85,7 +85,10 @@ class Drop {
   std::uint64_t topology_version() const { return topology_version_; }
   /// Says that elements changed. topology/ calls it; whoever else edits mesh() must call
   /// topology_changed() after connectivity().rebuild(mesh()).
-  void topology_changed() { ++topology_version_; }
+  void topology_changed() {
+    ++topology_version_;
+    slack_ = 0;
+  }
 
   /// Whether elements changed since the last call: kept factors of the flow's matrix are void.
   bool flow_pattern_changed() {
@@ -110,6 +113,11 @@ class Drop {
   double rest_time() const { return rest_time_; }
   void set_rest_time(double seconds) { rest_time_ = seconds; }
 
+  /// How far (cm) its vertices may still move before its faces are looked at again for what to mend or remesh: above 0
+  /// only after a look that found nothing, and for as long as no element changes.
+  double slack() const { return slack_; }
+  void set_slack(double length) { slack_ = length; }
+
   /// Shows a checkpoint every number that is not in the mesh; what is added to the class is added here.
   /// What lies in vertex maps goes along by itself; workspace() is empty after a resume.
   template <class Self, class Archive>
@@ -120,6 +128,7 @@ class Drop {
     archive("flow_version", self.flow_version_);
     archive("rest_time", self.rest_time_);
     archive("inflow", self.inflow_);
+    archive("slack", self.slack_);
   }
 
  private:
@@ -141,7 +150,7 @@ class Drop {
   Workspace* lent_workspace_ = nullptr;
   double target_volume_ = 0;
   std::uint64_t topology_version_ = 1, flow_version_ = 0;
-  double rest_time_ = 0, inflow_ = 0;
+  double rest_time_ = 0, inflow_ = 0, slack_ = 0;
   int id_ = 0;
 };
 

@@ -15,17 +15,22 @@ class Drop;
 struct PressureArrays;  ///< of operators/pressure.h
 
 /// What operators write of a drop, kept so that a bad substep can be taken back, but for the last displacements, which
-/// restore() sets to zero. Operators never change elements, so flat copies do. Allocates nothing while the number of
-/// rows stands.
+/// restore() sets to zero. Operators never change elements, so flat copies do. Allocates nothing for a drop of no more
+/// rows than it has held.
 class KeptState {
  public:
   void keep(Drop& drop);
   /// Precondition: the drop's elements are those of the last keep().
   void restore(Drop& drop) const;
-  const Eigen::Matrix3Xd& positions() const { return positions_; }
+  ConstColumns positions() const { return {positions_.data(), rows_}; }
+  /// The same precondition. Whether no vertex has touched or left a solid since.
+  bool has_contact_of(const Drop& drop) const;
+  /// The same precondition. How far (cm) some vertex has moved since, at most; infinite if that is more than `limit`.
+  double moved(const Drop& drop, double limit) const;
 
  private:
-  Eigen::Matrix3Xd positions_, velocities_, contact_normals_;
+  Eigen::Index rows_ = 0;
+  std::vector<double> positions_, velocities_, contact_normals_;  ///< three a row
   std::vector<Contact> contact_;
   std::vector<std::int32_t> contact_solid_;
   std::vector<std::uint8_t> line_status_;

@@ -21,6 +21,6 @@ struct FaceChanges {
 /// crumples or hits a solid; on a solid if it does not face it; elsewhere if it faces away from the normal at a vertex
 /// (as of the last drop.workspace().geometry). `violent` becomes 1 at those, by face; it is left empty if there are
 /// none.
-FaceChanges find_face_changes(Drop& drop, const Eigen::Matrix3Xd& before, std::vector<std::uint8_t>& violent);
+FaceChanges find_face_changes(Drop& drop, const ConstColumns& before, std::vector<std::uint8_t>& violent);
 
 }  // namespace meniscus

@@ -64,7 +64,7 @@ bool may_fold(const Drop& drop, const MergeOptions& options);
 
 /// Where a drop's vertices were when it was last sound, and what the solid that holds it has done since.
 struct LastSound {
-  const Eigen::Matrix3Xd& positions;                         ///< 3 x rows, cm
+  ConstColumns positions;                                    ///< 3 x rows, cm
   Eigen::Vector3d solid_moved = Eigen::Vector3d::Zero();     ///< cm
   Eigen::Vector3d solid_velocity = Eigen::Vector3d::Zero();  ///< cm/s
 };

@@ -58,6 +58,30 @@ TrianglePoint nearest_on_triangle(const std::array<Vector3d, 3>& p, const Vector
   return best;
 }
 
+/// How far a point is from a triangle at least: the quick answer for those that are not the nearest.
+class TriangleBound {
+ public:
+  explicit TriangleBound(const std::array<Vector3d, 3>& p) : corner_(p) {
+    normal_ = (p[1] - p[0]).cross(p[2] - p[0]).stableNormalized();
+    for (int k = 0; k < 3; ++k) inward_[k] = normal_.cross(p[(k + 1) % 3] - p[k]).stableNormalized();
+  }
+  const std::array<Vector3d, 3>& corners() const { return corner_; }
+
+  /// The square of at most the distance: from the plane, and from the strip along the side that x is beyond. `rounding`
+  /// is what dot products of differences may be off by (cm).
+  double squared_distance(const Vector3d& x, double rounding) const {
+    double beyond = 0;
+    for (int k = 0; k < 3; ++k) beyond = std::max(beyond, -inward_[k].dot(x - corner_[k]));
+    const double height = std::max(0.0, std::abs(normal_.dot(x - corner_[0])) - rounding);
+    beyond = std::max(0.0, beyond - rounding);
+    return height * height + beyond * beyond;
+  }
+
+ private:
+  std::array<Vector3d, 3> corner_, inward_;  // unit vectors in the plane, off the sides into the triangle
+  Vector3d normal_;                          // zero, as those, without area
+};
+
 void check_mesh(const MeshData& data) {
   const Inspection inspection = inspect(data);
   if (inspection.bounds_volume) return;
@@ -79,6 +103,7 @@ struct TriangleMeshDistance::Parts {
       const auto p = corners(t);
       for (const auto& x : p) box.extend(x);
       tree_triangles.emplace_back(tree_point(p[0]), tree_point(p[1]), tree_point(p[2]));
+      bounds.emplace_back(p);
     }
     add_normals();
     tree.insert(tree_triangles.begin(), tree_triangles.end());
@@ -131,10 +156,12 @@ struct TriangleMeshDistance::Parts {
     if (cell == nullptr || cell->candidates.empty()) return nearest_in_tree(x);
     Nearest best{0, {Vector3d::Zero(), on_face}};
     double least2 = std::numeric_limits<double>::infinity(), least = least2;
+    const double rounding = 1e-12 * (x.cwiseAbs().maxCoeff() + box.sizes().maxCoeff());
     for (const auto& [t, center, radius] : cell->candidates) {
       const double apart = least + radius;
       if ((x - center).squaredNorm() >= apart * apart) continue;
-      const TrianglePoint candidate = nearest_on_triangle(corners(t), x);
+      if (bounds[t].squared_distance(x, rounding) >= least2) continue;
+      const TrianglePoint candidate = nearest_on_triangle(bounds[t].corners(), x);
       const double distance2 = (x - candidate.point).squaredNorm();
       if (distance2 >= least2) continue;
       least2 = distance2;
@@ -190,6 +217,7 @@ struct TriangleMeshDistance::Parts {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<Vector3d, 7>> normals;  ///< of each triangle's corners, sides and face
   Eigen::AlignedBox3d box;
+  std::vector<TriangleBound> bounds;
   TreeTriangles tree_triangles;
   Tree tree;
   std::unique_ptr<const NearTriangles> near;

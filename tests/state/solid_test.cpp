@@ -4,6 +4,8 @@
 #include "meniscus/core/error.h"
 #include "meniscus/geometry/shapes.h"
 
+#include <CGAL/squared_distance_3.h>
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -175,6 +177,30 @@ RC_GTEST_PROP(Solid, WhatIsNearAMeshIsNotPassedOver, ()) {
   const double found = mesh.query(x, 0).distance;
   RC_ASSERT(std::abs(found - exact) <= sagitta);  // faces lie inside of the tube and outside of the hole
   for (const double margin : {0.0, 0.05, 0.3}) RC_ASSERT(mesh.is_near(x, 0, margin) || found > margin);
+}
+
+/// Quick answers leave most triangles out; the nearest is as near as the nearest of all, flat and thin ones included.
+RC_GTEST_PROP(Solid, TheNearestTriangleOfAMeshIsTheNearestOfAll, ()) {
+  static const Mesh surface = [] {
+    Mesh mesh = make_torus(origin, 1.5, 0.6, 0.3);
+    for (const auto v : mesh.vertices()) {  // squeezed to a sixtieth along z, and turned out of the axes
+      const Vector3d p = to_eigen(mesh.point(v));
+      mesh.point(v) = to_point(turn * Vector3d(p.x(), p.y(), p.z() / 60));
+    }
+    return mesh;
+  }();
+  static const Solid solid = Solid::mesh(to_mesh_data(surface));
+  const auto corner = *rc::gen::inRange<std::uint32_t>(0, static_cast<std::uint32_t>(surface.number_of_vertices()));
+  const double distance = std::pow(10.0, *rc::gen::inRange(-9, 1));  // from on the surface, but for rounding, to far
+  const Vector3d x = to_eigen(surface.point(VertexIndex(corner))) + distance * any_point();
+  double least2 = std::numeric_limits<double>::infinity();
+  for (const auto f : surface.faces()) {
+    const auto h = surface.halfedge(f);
+    const Kernel::Triangle_3 triangle(surface.point(surface.source(h)), surface.point(surface.target(h)),
+                                      surface.point(surface.target(surface.next(h))));
+    least2 = std::min(least2, CGAL::squared_distance(to_point(x), triangle));
+  }
+  RC_ASSERT(std::abs(std::abs(solid.query(x, 0).distance) - std::sqrt(least2)) < 1e-12);
 }
 
 TEST(Solid, MeshVerticesLieOnItsSurface) {

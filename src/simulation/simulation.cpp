@@ -51,6 +51,9 @@ namespace {
 /// Up to this many rows a drop borrows its working arrays: those of all drops together would fill the cache.
 constexpr std::size_t most_rows_to_lend_to = 16384;
 
+/// Drops that approach each other take a step in at most so many parts.
+constexpr double most_parts = 64;
+
 }  // namespace
 
 StepReport Simulation::step() {
@@ -97,10 +100,10 @@ void Simulation::step_all(StepReport& report) {
     task.failure = nullptr;
   }
   if (options_.merge && drops_.size() > 1)
-    for (const Cluster& cluster : approach_.find_clusters(drops_, substep_length(), options_.band.edge_max))
-      for (const std::uint32_t d : cluster.drops) {
+    for (const auto& cluster : approach_.find_clusters(drops_, substep_length(), options_.band.edge_max))
+      for (const std::uint32_t d : cluster) {
         tasks_[d].cluster = &cluster;
-        tasks_[d].leads = d == cluster.drops.front();
+        tasks_[d].leads = d == cluster.front();
       }
   tbb::parallel_for(std::size_t{0}, drops_.size(), [&](std::size_t d) {
     Task& task = tasks_[d];
@@ -157,20 +160,24 @@ bool Simulation::step_one(Drop& drop, std::vector<Drop>& cut_off, double time, d
   return goes_on;
 }
 
-std::vector<Drop> Simulation::step_cluster(const Cluster& cluster, StepReport& report) {
+std::vector<Drop> Simulation::step_cluster(const std::vector<std::uint32_t>& cluster, StepReport& report) {
   std::vector<Drop> drops;
-  for (const std::uint32_t d : cluster.drops) drops.push_back(std::move(drops_[d]));
+  for (const std::uint32_t d : cluster) drops.push_back(std::move(drops_[d]));
   BroadPhase broad_phase;
-  const double dt = substep_length() / cluster.substeps;
-  for (int k = cluster.substeps - 1; k >= 0; --k) {
+  const double shortest = substep_length() / most_parts;
+  double left = substep_length();
+  while (left > 0) {
+    double dt = std::max(longest_step(drops, left, options_.band.edge_max), std::min(shortest, left));
+    if (left - dt < 0.5 * shortest) dt = left;
+    left -= dt;
     std::vector<Drop> next;
     for (Drop& drop : drops) {
       std::vector<Drop> cut_off;
-      if (step_one(drop, cut_off, time_ - k * dt, dt, report)) next.push_back(std::move(drop));
+      if (step_one(drop, cut_off, time_ - left, dt, report)) next.push_back(std::move(drop));
       std::move(cut_off.begin(), cut_off.end(), std::back_inserter(next));
     }
     drops = std::move(next);
-    if (k > 0) merge(drops, broad_phase, report);
+    if (left > 0) merge(drops, broad_phase, report);
   }
   return drops;
 }

@@ -77,8 +77,8 @@ class Simulation {
   void step_all(StepReport& report);
   /// One drop by dt, to `time` (s), unless it sleeps. As step_in_place.
   bool step_one(Drop& drop, std::vector<Drop>& cut_off, double time, double dt, StepReport& report);
-  /// Drops that step together, out of drops_. Returns what became of them.
-  std::vector<Drop> step_cluster(const Cluster& cluster, StepReport& report);
+  /// Drops that step together, out of drops_, by their places. Returns what became of them.
+  std::vector<Drop> step_cluster(const std::vector<std::uint32_t>& cluster, StepReport& report);
   void merge(std::vector<Drop>& drops, BroadPhase& broad_phase, StepReport& report);
   /// Takes the choice that was read. Throws FileError if that is none, or if a drop touches a solid that is not there.
   void finish_restored();
@@ -96,10 +96,10 @@ class Simulation {
   BroadPhase places_;  ///< of boxes after a step
   /// What step_all does with a drop, by place.
   struct Task {
-    const Cluster* cluster = nullptr;  ///< that the drop goes with; nullptr: alone
-    bool leads = true;                 ///< the first of its cluster, which steps it
-    bool goes_on = true;               ///< the drop itself is still there
-    std::vector<Drop> others;          ///< what was cut off it, or became of its cluster
+    const std::vector<std::uint32_t>* cluster = nullptr;  ///< that the drop goes with; nullptr: alone
+    bool leads = true;                                    ///< the first of its cluster, which steps it
+    bool goes_on = true;                                  ///< the drop itself is still there
+    std::vector<Drop> others;                             ///< what was cut off it, or became of its cluster
     StepReport report;
     std::exception_ptr failure;
   };

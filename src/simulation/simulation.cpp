@@ -114,6 +114,7 @@ void Simulation::step_all(StepReport& report) {
       else
         task.goes_on = step_one(drops_[d], task.others, time_, substep_length(), task.report);
     } catch (...) {
+      drops_[d].lend_workspace(nullptr);
       task.failure = std::current_exception();
     }
   });

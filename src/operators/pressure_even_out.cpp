@@ -94,6 +94,10 @@ double sharp_turn_cosine(const PressureSurface& surface) {
                   degree);
 }
 
+bool is_free(const Drop& drop, const PressureSurface& surface, std::uint32_t v) {
+  return is_on_surface(surface.role[v]) && !is_colliding(drop.contact()[v]);
+}
+
 /// The most that a substep offsets the surface, as a share of edge_min.
 constexpr double most_offset = 0.05;
 
@@ -102,7 +106,7 @@ double volume_offset(const Drop& drop, double edge_min, const PressureSurface& s
   const SurfaceGeometry& geometry = drop.workspace().geometry;
   double area = 0;
   for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
-    if (is_on_surface(surface.role[v]) && !is_colliding(drop.contact()[v])) area += geometry.area_vector(v).norm() / 3;
+    if (is_free(drop, surface, v)) area += geometry.area_vector(v).norm() / 3;
   const double missing = drop.target_volume() - drop.volume(), most = most_offset * edge_min;
   return area > 0 ? std::clamp(missing / area, -most, most) : 0;
 }
@@ -119,9 +123,6 @@ void even_out(Drop& drop, const PressureOptions& options, PressureArrays& arrays
   std::vector<Vector3d>& shift = arrays.shift;
   shift.assign(n, Vector3d::Zero());
   carried = arrays.deformation;
-  const auto is_free = [&](std::uint32_t v) {
-    return is_on_surface(surface.role[v]) && !is_colliding(drop.contact()[v]);
-  };
   for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
     for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
       const Around around = look_around(drop, v);
@@ -130,8 +131,8 @@ void even_out(Drop& drop, const PressureOptions& options, PressureArrays& arrays
       const Role role = surface.role[v];
       if (role == Role::line) {
         shift[v] = line_shift(drop, surface, v, factor, sharp);
-      } else if (is_free(v) || role == Role::wetted) {
-        const Vector3d normal = is_free(v) ? geometry.normal(v) : Vector3d(drop.contact_normals().col(v));
+      } else if (const bool free = is_free(drop, surface, v); free || role == Role::wetted) {
+        const Vector3d normal = free ? geometry.normal(v) : Vector3d(drop.contact_normals().col(v));
         shift[v] = factor * (around.to_centroid - around.to_centroid.dot(normal) * normal);
       }
       if (is_moving(role) && shift[v].squaredNorm() > small * small)
@@ -143,7 +144,8 @@ void even_out(Drop& drop, const PressureOptions& options, PressureArrays& arrays
   for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
     for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
       x.col(v) += shift[v];
-      if (offset != 0 && drop.connectivity().degree(v) > 3 && is_free(v)) x.col(v) += offset * geometry.normal(v);
+      if (offset != 0 && drop.connectivity().degree(v) > 3 && is_free(drop, surface, v))
+        x.col(v) += offset * geometry.normal(v);
     }
   });
   arrays.deformation.swap(carried);

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// In lengths of edge_min: what a vertex may move on its own, go into a solid, and be offset for the volume.
+/// In lengths of edge_min: what a vertex may move on its own and go into a solid.
 constexpr double most_move = 0.5, most_depth = 0.2;
 /// A drop that turns by less in a substep (radians) keeps its rotation, whatever becomes of its shape.
 constexpr double least_turn = 1e-12;

@@ -17,15 +17,8 @@ constexpr double largest_approach = 0.25;
 constexpr double share_of_gap = 0.75;
 
 DropMotion motion_of(const Drop& drop) {
-  const ConstColumns v = drop.velocities();
-  DropMotion motion;
-  motion.velocity = mean_over_vertices(drop, v);
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-    if (drop.connectivity().degree(i) > 0)
-      motion.spread = std::max(motion.spread, (v.col(i) - motion.velocity).squaredNorm());
-  motion.spread = std::sqrt(motion.spread);
-  motion.radius = ball_radius(drop);
-  return motion;
+  const Eigen::Vector3d velocity = mean_over_vertices(drop, drop.velocities());
+  return {velocity, top_speed(drop, velocity), ball_radius(drop)};
 }
 
 /// Where a drop may be in the next dt, gravity aside: it moves all drops alike.

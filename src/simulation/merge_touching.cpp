@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/simulation/merge_touching.h"
 
+#include "step_parts.h"
+
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -28,13 +30,6 @@ Pairs meeting_pairs(const std::vector<Drop>& drops, const std::vector<Eigen::Ali
 }
 
 bool boxes_meet(const Drop& a, const Drop& b) { return bounding_box(a).intersects(bounding_box(b)); }
-
-double top_speed(const Drop& drop) {
-  double most = 0;
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-    if (drop.connectivity().degree(i) > 0) most = std::max(most, drop.velocities().col(i).norm());
-  return most;
-}
 
 /// The drops move apart, as the pieces of a neck that has just pinched off: by means over their vertices, for the
 /// liquid's momentum tells little on a solid. Where solids hold both, speeds do not tell.

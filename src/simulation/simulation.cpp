@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 namespace meniscus {
 
@@ -54,6 +55,21 @@ constexpr std::size_t most_rows_to_lend_to = 16384;
 /// Drops that approach each other take a step in at most so many parts.
 constexpr double most_parts = 64;
 
+/// Working arrays that a drop has for as long as this lives.
+class Loan {
+ public:
+  Loan(Drop& drop, Workspace& workspace) : drop_(drop) {
+    workspace.solver.forget();
+    drop.lend_workspace(&workspace);
+  }
+  Loan(const Loan&) = delete;
+  Loan& operator=(const Loan&) = delete;
+  ~Loan() { drop_.lend_workspace(nullptr); }
+
+ private:
+  Drop& drop_;
+};
+
 }  // namespace
 
 StepReport Simulation::step() {
@@ -94,27 +110,23 @@ void Simulation::step_all(StepReport& report) {
   tasks_.resize(drops_.size());
   for (Task& task : tasks_) {
     task.cluster = nullptr;
-    task.leads = task.goes_on = true;
+    task.goes_on = true;
     task.others.clear();
     task.report = StepReport();
     task.failure = nullptr;
   }
   if (options_.merge && drops_.size() > 1)
     for (const auto& cluster : approach_.find_clusters(drops_, substep_length(), options_.band.edge_max))
-      for (const std::uint32_t d : cluster) {
-        tasks_[d].cluster = &cluster;
-        tasks_[d].leads = d == cluster.front();
-      }
+      for (const std::uint32_t d : cluster) tasks_[d].cluster = &cluster;
   tbb::parallel_for(std::size_t{0}, drops_.size(), [&](std::size_t d) {
     Task& task = tasks_[d];
-    if (!task.leads) return;
+    if (task.cluster != nullptr && task.cluster->front() != d) return;
     try {
       if (task.cluster != nullptr)
         task.others = step_cluster(*task.cluster, task.report);
       else
         task.goes_on = step_one(drops_[d], task.others, time_, substep_length(), task.report);
     } catch (...) {
-      drops_[d].lend_workspace(nullptr);
       task.failure = std::current_exception();
     }
   });
@@ -140,22 +152,18 @@ bool Simulation::step_one(Drop& drop, std::vector<Drop>& cut_off, double time, d
     ++report.asleep;
     return true;
   }
-  if (drop.num_rows() <= most_rows_to_lend_to && drops_.size() > 1) {
-    Workspace& workspace = workspaces_.local();
-    workspace.solver.forget();
-    drop.lend_workspace(&workspace);
-  }
+  std::optional<Loan> loan;
+  if (drop.num_rows() <= most_rows_to_lend_to && drops_.size() > 1) loan.emplace(drop, workspaces_.local());
   StepReport of_drop;
   const std::size_t first = cut_off.size();
   const bool goes_on = step_in_place(drop, cut_off, solids_, time, dt, options_, remeshers_.local(), of_drop);
   report += of_drop;
-  const auto finish = [&](Drop& piece) {
-    piece.lend_workspace(nullptr);
+  const auto count = [&](Drop& piece) {
     if (sleep_) count_rest(piece, dt, of_drop.edge_operations > 0, sleep);
   };
-  if (goes_on) finish(drop);
+  if (goes_on) count(drop);
   for (std::size_t p = first; p < cut_off.size(); ++p) {
-    finish(cut_off[p]);
+    count(cut_off[p]);
     cut_off[p].set_id(no_id);
   }
   return goes_on;
@@ -168,7 +176,7 @@ std::vector<Drop> Simulation::step_cluster(const std::vector<std::uint32_t>& clu
   const double shortest = substep_length() / most_parts;
   double left = substep_length();
   while (left > 0) {
-    double dt = std::max(longest_step(drops, left, options_.band.edge_max), std::min(shortest, left));
+    double dt = std::max(longest_step(drops, left, options_.band.edge_max), shortest);
     if (left - dt < 0.5 * shortest) dt = left;
     left -= dt;
     std::vector<Drop> next;

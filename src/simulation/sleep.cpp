@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sleep.h"
 
+#include "step_parts.h"
+
 #include <algorithm>
-#include <cmath>
 
 namespace meniscus {
 namespace {
 
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
-
-double top_speed(const Drop& drop) {
-  double squared = 0;
-  const ConstColumns v = drop.velocities();
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-    if (drop.connectivity().degree(i) > 0) squared = std::max(squared, v.col(i).squaredNorm());
-  return std::sqrt(squared);
-}
 
 /// The drop's box, grown by `margin` to all sides.
 AlignedBox3d box_of(const Drop& drop, double margin) {

@@ -175,18 +175,12 @@ constexpr int most_substeps = 256;
 constexpr double largest_volume_error = 2;
 
 /// How many substeps keep a step of this drop within the limits above.
-int num_substeps(Drop& drop, const std::vector<Solid>& solids, double time, double dt, const StepOptions& options) {
-  const ConstColumns x = drop.positions(), v = drop.velocities();
-  Eigen::AlignedBox3d box;
-  double speed = 0;
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
-    if (drop.connectivity().degree(i) == 0) continue;
-    box.extend(Vector3d(x.col(i)));
-    speed = std::max(speed, v.col(i).squaredNorm());
-  }
+int num_substeps(const Drop& drop, const std::vector<Solid>& solids, double time, double dt,
+                 const StepOptions& options) {
+  const Eigen::AlignedBox3d box = bounding_box(drop);
   if (box.isEmpty()) return 1;
   const double length = ball_radius(drop);
-  const double move = (std::sqrt(speed) + options.gravity.norm() * dt) * dt;
+  const double move = (top_speed(drop) + options.gravity.norm() * dt) * dt;
   const bool near = std::any_of(solids.begin(), solids.end(), [&](const Solid& solid) {
     return solid.is_near(box, time, move + solid.velocity(time).norm() * dt);
   });

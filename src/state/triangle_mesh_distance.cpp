@@ -100,7 +100,8 @@ struct TriangleMeshDistance::Parts {
     for (const auto& p : data.points) points.push_back(Vector3d::Map(p.data()));
     triangles = data.triangles;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-      const auto p = corners(t);
+      const auto& [a, b, c] = triangles[t];
+      const std::array<Vector3d, 3> p{points[a], points[b], points[c]};
       for (const auto& x : p) box.extend(x);
       tree_triangles.emplace_back(tree_point(p[0]), tree_point(p[1]), tree_point(p[2]));
       bounds.emplace_back(p);
@@ -161,7 +162,7 @@ struct TriangleMeshDistance::Parts {
       const double apart = least + radius;
       if ((x - center).squaredNorm() >= apart * apart) continue;
       if (bounds[t].squared_distance(x, rounding) >= least2) continue;
-      const TrianglePoint candidate = nearest_on_triangle(bounds[t].corners(), x);
+      const TrianglePoint candidate = nearest_on_triangle(corners(t), x);
       const double distance2 = (x - candidate.point).squaredNorm();
       if (distance2 >= least2) continue;
       least2 = distance2;
@@ -182,9 +183,7 @@ struct TriangleMeshDistance::Parts {
     return {side * distance, nearest.on_it.point, use_direction ? Vector3d(side / distance * away) : pseudonormal};
   }
 
-  std::array<Vector3d, 3> corners(std::size_t t) const {
-    return {points[triangles[t][0]], points[triangles[t][1]], points[triangles[t][2]]};
-  }
+  const std::array<Vector3d, 3>& corners(std::size_t t) const { return bounds[t].corners(); }
 
   /// Face normals; their sum at an edge; their sum weighted by the angle at a vertex. Only the
   /// direction counts. Faces without area have no say.

@@ -26,7 +26,7 @@ Eigen::Matrix3Xd carried_along(const Drop& drop, const LastSound& last, RigidMot
   SurfaceGeometry geometry;
   geometry.compute(drop.positions(), drop.connectivity());
   const Eigen::Matrix3Xd moved = drop.positions() - before;
-  const RigidMotion motion = fit_rigid_motion(drop.positions(), ConstColumns(moved.data(), moved.cols()), geometry);
+  const RigidMotion motion = fit_rigid_motion(drop.positions(), moved, geometry);
   velocity = fit_rigid_motion(drop.positions(), drop.velocities(), geometry);
   Eigen::Matrix3Xd carried = before;
   for (Eigen::Index i = 0; i < before.cols(); ++i) carried.col(i) += motion.at(drop.positions().col(i) - moved.col(i));

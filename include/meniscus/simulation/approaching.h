@@ -10,9 +10,9 @@ namespace meniscus {
 
 /// How a drop moves as a whole.
 struct DropMotion {
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< the mean over vertices, cm/s
-  double spread = 0;                                   ///< the most that a vertex departs from it, cm/s
-  double radius = 0;                                   ///< of the ball of the drop's volume, cm
+  Eigen::Vector3d velocity;  ///< the mean over vertices, cm/s
+  double spread;             ///< the most that a vertex departs from it, cm/s
+  double radius;             ///< of the ball of the drop's volume, cm
 };
 
 /// Groups drops so that none pass through each other within a step: two drops may come closer by no more than a quarter

@@ -20,7 +20,7 @@ class BroadPhase {
   const std::vector<std::array<std::uint32_t, 2>>& find_pairs(const std::vector<Eigen::AlignedBox3d>& boxes);
   /// The same for the boxes of drops.
   const std::vector<std::array<std::uint32_t, 2>>& find_pairs(const std::vector<Drop>& drops);
-  /// Those boxes, of the last call.
+  /// Those boxes, of the last call with drops.
   const std::vector<Eigen::AlignedBox3d>& boxes() const { return boxes_; }
 
  private:

@@ -96,10 +96,10 @@ class Simulation {
   BroadPhase places_;  ///< of boxes after a step
   /// What step_all does with a drop, by place.
   struct Task {
-    const std::vector<std::uint32_t>* cluster = nullptr;  ///< that the drop goes with; nullptr: alone
-    bool leads = true;                                    ///< the first of its cluster, which steps it
-    bool goes_on = true;                                  ///< the drop itself is still there
-    std::vector<Drop> others;                             ///< what was cut off it, or became of its cluster
+    const std::vector<std::uint32_t>* cluster =
+        nullptr;               ///< that the drop goes with, stepped by its first; nullptr: alone
+    bool goes_on = true;       ///< the drop itself is still there
+    std::vector<Drop> others;  ///< what was cut off it, or became of its cluster
     StepReport report;
     std::exception_ptr failure;
   };

@@ -56,11 +56,11 @@ Evolved read_dump(const std::string& output, bool quadratic) {
   return evolved;
 }
 
-void add_evolver(ChartTable& table, double angle, int refinements, bool quadratic) {
+void add_evolver(ChartTable& table, double radius, double angle, int refinements, bool quadratic) {
   const TemporaryDirectory directory;
-  const Finished made = run_program(
-      {"python3", MENISCUS_SOURCE_DIR "/bench/peers/evolver_sessile.py", "6", fmt::format("{}", angle), "981"},
-      directory.path());
+  const Finished made = run_program({"python3", MENISCUS_SOURCE_DIR "/bench/peers/evolver_sessile.py", "6",
+                                     fmt::format("{}", angle), "981", fmt::format("{}", radius)},
+                                    directory.path());
   std::string commands = "relax;\n";
   for (int k = 0; k < refinements; ++k) commands += "r; relax;\n";
   if (quadratic) commands += "quadratic; relax;\n";
@@ -69,13 +69,13 @@ void add_evolver(ChartTable& table, double angle, int refinements, bool quadrati
   const Finished written = run_program({"cp", "/dev/stdin", file}, directory.path(), made.output);
   const Finished run = run_program({"evolver", "-x", file}, directory.path(), commands + "q\n");
   const Evolved evolved = read_dump(run.output, quadratic);
-  const auto exact =
-      references::drop_at_rest(4 * pi / 3 * 0.008, angle * degree, 981, Liquid(), references::Hold::sessile);
+  const auto exact = references::drop_at_rest(4 * pi / 3 * std::pow(radius, 3), angle * degree, 981, Liquid(),
+                                              references::Hold::sessile);
   if (made.code != 0 || written.code != 0 || std::isnan(evolved.height)) {
-    fmt::print("evolver: no result at {} degrees, {} refinements\n", angle, refinements);
+    fmt::print("evolver: no result at R = {}, {} degrees, {} refinements\n", radius, angle, refinements);
     return;
   }
-  table.add({std::string(quadratic ? "evolver quadratic" : "evolver linear"), 0.2, angle, nan, evolved.facets,
+  table.add({std::string(quadratic ? "evolver quadratic" : "evolver linear"), radius, angle, nan, evolved.facets,
              evolved.height / exact.height - 1, evolved.contact_radius / exact.contact_radius - 1, nan, run.cpu_seconds,
              nan});
 }
@@ -110,11 +110,12 @@ ChartTable sessile_chart(bool quick) {
     fmt::print("evolver: skipped, it is not installed\n");
     return table;
   }
-  for (const double angle : {60.0, 90.0, 120.0})
-    for (const int refinements : {2, 3, 4, 5}) {
-      add_evolver(table, angle, refinements, false);
-      if (refinements < 4) add_evolver(table, angle, refinements, true);
-    }
+  for (const double radius : {0.1, 0.2, 0.3})
+    for (const double angle : {60.0, 90.0, 120.0})
+      for (const int refinements : {2, 3, 4, 5}) {
+        add_evolver(table, radius, angle, refinements, false);
+        if (refinements < 4) add_evolver(table, radius, angle, refinements, true);
+      }
   return table;
 }
 

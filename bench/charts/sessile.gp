@@ -17,8 +17,8 @@ do for [row = 1:2] {
     column = row == 1 ? 6 : 7
     if (row == 1 && angle eq '120') { set key at screen 0.995,0.85 right top } else { unset key }
     plot for [l in level_names] rows('sessile', sprintf('$1=="%s" && $2==0.2 && $3==%s', l, angle)) using 9:(abs(column(column))) with linespoints lc rgb level_colour(l) lw 2 pt 7 ps 0.7 title (any('sessile', sprintf('$1=="%s"', l)) ? l : ''), \
-      rows('sessile', sprintf('$1=="evolver linear" && $3==%s', angle)) using 9:(abs(column(column))) with linespoints lc rgb peer lw 1.5 dt 2 pt 6 title 'Surface Evolver, linear', \
-      rows('sessile', sprintf('$1=="evolver quadratic" && $3==%s', angle)) using 9:(abs(column(column))) with linespoints lc rgb 'black' lw 1.5 dt 3 pt 8 title 'Surface Evolver, quadratic'
+      rows('sessile', sprintf('$1=="evolver linear" && $2==0.2 && $3==%s', angle)) using 9:(abs(column(column))) with linespoints lc rgb peer lw 1.5 dt 2 pt 6 title 'Surface Evolver, linear', \
+      rows('sessile', sprintf('$1=="evolver quadratic" && $2==0.2 && $3==%s', angle)) using 9:(abs(column(column))) with linespoints lc rgb 'black' lw 1.5 dt 3 pt 8 title 'Surface Evolver, quadratic'
   }
 }
 unset multiplot

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 namespace meniscus {
@@ -116,9 +117,12 @@ std::vector<NearVertex> vertices_near(const Drop& drop, const Solid& solid, doub
   return near;
 }
 
-/// How high vertices must be for the solid not to come through their edges, one a row (cm): over an edge of length l
-/// the solid rises by l^2/(8 R), which is a quarter of what the edge's end lies below the tangent plane of its start.
+/// How high vertices must be for the solid not to come through their edges, one a row (cm). Over an edge of length l
+/// the solid rises by l^2/(8 R), which is a quarter of what the edge's end lies below the tangent plane of its start;
+/// an edge whose ends are at g and h clears it where sqrt(g) + sqrt(h) >= 2 sqrt(rise), and a face asks for a third
+/// more.
 std::vector<double> least_heights(const Drop& drop, const std::vector<NearVertex>& near) {
+  constexpr double within_face = 4.0 / 3;  // the rise in the middle of a triangle of equal sides, in those of its sides
   std::vector<double> height(drop.num_rows(), -1), least(drop.num_rows(), 0);
   for (const auto& [v, below] : near) height[v] = std::max(0.0, below.distance);
   for (const auto& [v, below] : near) {
@@ -127,7 +131,8 @@ std::vector<double> least_heights(const Drop& drop, const std::vector<NearVertex
       const std::uint32_t w = ring.neighbour[k];
       if (height[w] < 0) continue;
       const double rise = 0.25 * (height[w] - (drop.positions().col(w) - below.point).dot(below.normal));
-      least[v] = std::max(least[v], 2 * rise - height[w]);
+      const double root = 2 * std::sqrt(std::max(0.0, within_face * rise)) - std::sqrt(height[w]);
+      if (root > 0) least[v] = std::max(least[v], root * root);
     }
   }
   return least;

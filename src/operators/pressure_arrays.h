@@ -54,7 +54,7 @@ struct PressureArrays {
   std::vector<double> speed_old, speed, rhs_without_line, rhs, friction, diagonal;
   std::vector<double> residual, preconditioned, search, product, deformation;
   std::vector<std::uint8_t> fixed, blocked, status_before;
-  std::vector<Eigen::Vector3d> shift;
+  std::vector<Eigen::Vector3d> shift;  ///< ends of a move; then by how much even_out moved each vertex, cm
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< U of the solution, in coordinates of `rigid`
 };
 

@@ -143,9 +143,9 @@ void even_out(Drop& drop, const PressureOptions& options, PressureArrays& arrays
   Columns x = drop.positions();
   for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
     for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
-      x.col(v) += shift[v];
       if (offset != 0 && drop.connectivity().degree(v) > 3 && is_free(drop, surface, v))
-        x.col(v) += offset * geometry.normal(v);
+        shift[v] += offset * geometry.normal(v);
+      x.col(v) += shift[v];
     }
   });
   arrays.deformation.swap(carried);

@@ -108,11 +108,13 @@ LastSound last_sound(const Drop& drop, const ConstColumns& positions, const std:
   return last;
 }
 
-/// remesh_and_split, before specks are looked at. `after` says for what a drop may be found unsound.
+/// remesh_and_split, before specks are looked at. `after` says for what a drop may be found unsound; nullptr: no
+/// element changed.
 bool change_topology(Drop& drop, std::vector<Drop>& cut_off, const ConstColumns& before,
                      const std::vector<Solid>& solids, double time, double dt, const StepOptions& options,
                      Remesher& remesher, StageClock& clock, StepReport& report, const char*& after) {
-  after = "remeshing";
+  const std::uint64_t version = drop.topology_version();
+  after = nullptr;
   const bool has_to_look = options.remesh && !(drop.slack() > 0);
   if (has_to_look) {
     watch_faces(drop, drop.workspace().violent_faces);
@@ -135,6 +137,7 @@ bool change_topology(Drop& drop, std::vector<Drop>& cut_off, const ConstColumns&
   if (has_to_look) {
     remeshed = remesher.remesh(drop, remesh_options(options));
     if (!is_watched && !remeshed.changed()) drop.set_slack(slack_share * options.band.edge_min);
+    if (drop.topology_version() != version) after = "remeshing";
   }
   const bool may_be_off = remeshed.changed() || !drop.workspace().films.empty() || options.level == Level::pressure;
   if (options.remesh && may_be_off && remeshed.cuts == 0) give_back_volume(drop, options);
@@ -176,8 +179,10 @@ bool remesh_and_split(Drop& drop, std::vector<Drop>& cut_off, const ConstColumns
   const char* after = nullptr;
   if (!change_topology(drop, cut_off, before, solids, time, dt, options, remesher, clock, report, after)) return false;
   const auto finish = [&](Drop& piece) {
-    report.rounded += round_off_knot(piece, version, solids, time, options.band);
-    if (options.verify != Verify::nothing) verify_topology(piece, after);
+    const bool is_rounded = round_off_knot(piece, version, solids, time, options.band);
+    report.rounded += is_rounded;
+    if (is_rounded) after = "a speck was rounded off";
+    if (options.verify != Verify::nothing && after != nullptr) verify_topology(piece, after);
   };
   finish(drop);
   std::for_each(cut_off.begin() + static_cast<std::ptrdiff_t>(first), cut_off.end(), finish);

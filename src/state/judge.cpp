@@ -13,7 +13,7 @@ namespace meniscus::judge {
 
 Soup soup_of(const Mesh& mesh) {
   Soup soup;
-  std::map<std::size_t, std::size_t> number;
+  std::vector<std::size_t> number(mesh.num_vertices(), 0);
   for (const auto v : mesh.vertices()) {
     number[v] = soup.points.size();
     soup.points.push_back(mesh.point(v));
@@ -28,42 +28,53 @@ Soup soup_of(const Mesh& mesh) {
 }
 
 std::string edges_defect(const Soup& soup) {
-  std::map<std::pair<std::size_t, std::size_t>, int> directed;
+  std::vector<std::array<std::size_t, 2>> directed;
+  std::vector<std::array<std::size_t, 3>> faces;
   std::vector<int> uses(soup.points.size(), 0);
-  std::map<std::array<std::size_t, 3>, int> faces;
   for (auto t : soup.triangles) {
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
       return fmt::format("face with a vertex twice: {} {} {}", t[0], t[1], t[2]);
     for (int k = 0; k < 3; ++k) {
-      ++directed[{t[k], t[(k + 1) % 3]}];
+      directed.push_back({t[k], t[(k + 1) % 3]});
       ++uses[t[k]];
     }
     std::sort(t.begin(), t.end());
-    if (++faces[t] > 1) return fmt::format("two faces on {} {} {}", t[0], t[1], t[2]);
+    faces.push_back(t);
   }
-  for (const auto& [edge, count] : directed) {
-    if (count != 1) return fmt::format("edge {}-{} has {} faces on one side", edge.first, edge.second, count);
-    if (directed.find({edge.second, edge.first}) == directed.end())
-      return fmt::format("edge {}-{} has no opposite", edge.first, edge.second);
+  std::sort(faces.begin(), faces.end());
+  if (const auto twice = std::adjacent_find(faces.begin(), faces.end()); twice != faces.end())
+    return fmt::format("two faces on {} {} {}", (*twice)[0], (*twice)[1], (*twice)[2]);
+  std::sort(directed.begin(), directed.end());
+  if (const auto twice = std::adjacent_find(directed.begin(), directed.end()); twice != directed.end()) {
+    const auto [first, end] = std::equal_range(twice, directed.end(), *twice);
+    return fmt::format("edge {}-{} has {} faces on one side", (*twice)[0], (*twice)[1], end - first);
   }
+  for (const auto& edge : directed)
+    if (!std::binary_search(directed.begin(), directed.end(), decltype(edge){edge[1], edge[0]}))
+      return fmt::format("edge {}-{} has no opposite", edge[0], edge[1]);
   for (std::size_t v = 0; v < uses.size(); ++v)
     if (uses[v] < 3) return fmt::format("vertex {} has {} faces", v, uses[v]);
   return {};
 }
 
 std::string fans_defect(const Soup& soup) {
-  std::vector<std::map<std::size_t, std::size_t>> next(soup.points.size());
+  std::vector<std::array<std::size_t, 3>> steps;  // about a vertex: from a neighbour to the next
   for (const auto& t : soup.triangles)
-    for (int k = 0; k < 3; ++k) next[t[k]][t[(k + 1) % 3]] = t[(k + 2) % 3];
-  for (std::size_t v = 0; v < next.size(); ++v) {
-    if (next[v].empty()) continue;
-    const std::size_t first = next[v].begin()->first;
-    std::size_t turned = 0, at = first;
+    for (int k = 0; k < 3; ++k) steps.push_back({t[k], t[(k + 1) % 3], t[(k + 2) % 3]});
+  std::sort(steps.begin(), steps.end());
+  for (auto first = steps.begin(); first != steps.end();) {
+    const std::size_t v = (*first)[0];
+    const auto end = std::find_if(first, steps.end(), [&](const auto& step) { return step[0] != v; });
+    std::ptrdiff_t turned = 0;
+    std::size_t at = (*first)[1];
     do {
-      at = next[v].at(at);
+      const auto step = std::lower_bound(first, end, std::array<std::size_t, 3>{v, at, 0});
+      if (step == end || (*step)[1] != at) return fmt::format("vertex {} has an open fan", v);
+      at = (*step)[2];
       ++turned;
-    } while (at != first && turned <= next[v].size());
-    if (turned != next[v].size()) return fmt::format("vertex {} is pinched", v);
+    } while (at != (*first)[1] && turned <= end - first);
+    if (turned != end - first) return fmt::format("vertex {} is pinched", v);
+    first = end;
   }
   return {};
 }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "boolean_seam.h"
-#include "face_grid.h"
+#include "fold_finder.h"
 #include "meniscus/geometry/rigid_motion.h"
 #include "merge_parts.h"
-#include "placed_face.h"
 #include "sheet_guard.h"
-#include "sorted_boxes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,14 +38,6 @@ constexpr double largest_volume_error = 0.2;
 /// else it would go further off with every substep.
 constexpr double most_left_off = 0.05;
 
-std::vector<PlacedTriangle> placed_faces(const Drop& drop, const std::vector<FaceBox>& faces) {
-  const MeshView mesh = view_of(drop);
-  std::vector<PlacedTriangle> placed;
-  placed.reserve(faces.size());
-  for (const FaceBox& face : faces) placed.push_back(placed_face(mesh, face.face));
-  return placed;
-}
-
 enum class Folds { between_neighbours, all };
 
 /// Moves a vertex halfway to the mean of its neighbours, or less, if its faces then meet nothing.
@@ -78,107 +68,6 @@ void relax(Drop& drop, const std::vector<std::uint32_t>& vertices, const Watched
   for (const auto v : vertices)
     if (!is_colliding(drop.contact()[v])) relax(drop, v, guard);
 }
-
-/// Some faces of a drop, and which of them meet each other elsewhere than in what they share. When vertices move, the
-/// faces at them belong to it, and those that these may then meet.
-class FoldFinder {
- public:
-  using Pair = std::array<std::uint32_t, 2>;
-
-  FoldFinder(const Drop& drop, std::vector<FaceBox> faces)
-      : drop_(drop),
-        faces_(std::move(faces)),
-        place_(drop.connectivity().triangles().size(), none),
-        has_moved_(faces_.size(), 0),
-        is_waiting_(faces_.size(), 0) {
-    const std::vector<PlacedTriangle> placed = placed_faces(drop_, faces_);
-    for (std::uint32_t k = 0; k < faces_.size(); ++k) place_[faces_[k].face] = k;
-    SortedBoxes(faces_).for_each_pair([&](const FaceBox& f, const FaceBox& g) {
-      if (meet(placed[place_[f.face]], placed[place_[g.face]]))
-        meeting_.push_back({std::min(f.face, g.face), std::max(f.face, g.face)});
-      return true;
-    });
-    std::sort(meeting_.begin(), meeting_.end());
-  }
-  /// The vertex has another place now.
-  void move(std::uint32_t v) {
-    const Ring ring = drop_.connectivity().ring(v);
-    for (int k = 0; k < ring.degree; ++k) {
-      const std::uint32_t place = place_of(ring.corner[k] / 3);
-      if (is_waiting_[place] != 0) continue;
-      is_waiting_[place] = has_moved_[place] = 1;
-      waiting_.push_back(place);
-    }
-  }
-  /// Pairs of faces that meet, sorted.
-  const std::vector<Pair>& meeting() {
-    if (!waiting_.empty()) look_again();
-    return meeting_;
-  }
-
- private:
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
-
-  /// Of a face, which belongs to the list from then on; the grid does not know it.
-  std::uint32_t place_of(std::uint32_t face) {
-    if (place_[face] == none) {
-      place_[face] = static_cast<std::uint32_t>(faces_.size());
-      faces_.push_back({box_now(face), face});
-      has_moved_.push_back(1);
-      is_waiting_.push_back(0);
-    }
-    return place_[face];
-  }
-  void add_faces_near_waiting() {
-    Eigen::AlignedBox3d box;
-    for (const std::uint32_t place : waiting_) box.extend(box_now(faces_[place].face));
-    for (const FaceBox& near : faces_in(view_of(drop_), box)) place_of(near.face);
-  }
-  /// The grid knows faces where they were at first; those that have moved since, or are new, are in one of their own.
-  void look_again() {
-    add_faces_near_waiting();
-    if (!grid_) grid_.emplace(faces_);
-    const MeshView mesh = view_of(drop_);
-    const auto waits = [&](std::uint32_t face) { return is_waiting_[place_[face]] != 0; };
-    meeting_.erase(
-        std::remove_if(meeting_.begin(), meeting_.end(), [&](const Pair& p) { return waits(p[0]) || waits(p[1]); }),
-        meeting_.end());
-    std::vector<FaceBox> moved;
-    for (std::uint32_t k = 0; k < faces_.size(); ++k)
-      if (has_moved_[k] != 0) moved.push_back({box_now(faces_[k].face), faces_[k].face});
-    const FaceGrid moved_grid(moved);
-    for (const std::uint32_t place : waiting_) {
-      const std::uint32_t f = faces_[place].face;
-      const PlacedTriangle placed = placed_face(mesh, f);
-      const auto test = [&](std::uint32_t g) {
-        if (meet(placed, placed_face(mesh, g))) meeting_.push_back({std::min(f, g), std::max(f, g)});
-        return true;
-      };
-      const Eigen::AlignedBox3d box = placed.box();
-      grid_->for_each_meeting(box, [&](const FaceBox& g) { return has_moved_[place_[g.face]] != 0 || test(g.face); });
-      moved_grid.for_each_meeting(box, [&](const FaceBox& g) {
-        const bool is_seen_from_there = waits(g.face) && g.face < f;
-        return g.face == f || is_seen_from_there || test(g.face);
-      });
-    }
-    for (const std::uint32_t place : waiting_) is_waiting_[place] = 0;
-    waiting_.clear();
-    std::sort(meeting_.begin(), meeting_.end());
-  }
-  Eigen::AlignedBox3d box_now(std::uint32_t face) const {
-    Eigen::AlignedBox3d box;
-    for (const auto v : drop_.connectivity().triangles()[face]) box.extend(Eigen::Vector3d(drop_.positions().col(v)));
-    return box;
-  }
-
-  const Drop& drop_;
-  std::vector<FaceBox> faces_;                        // where they were at first
-  std::optional<FaceGrid> grid_;                      // from the first move on
-  std::vector<std::uint32_t> place_;                  // of a face in the list
-  std::vector<std::uint8_t> has_moved_, is_waiting_;  // has_moved_: or is not in the grid
-  std::vector<std::uint32_t> waiting_;                // places of faces that have moved since the last look
-  std::vector<Pair> meeting_;
-};
 
 /// Takes vertices of a drop back to where they were before the substep.
 class TakeBack {
@@ -267,17 +156,6 @@ class TakeBack {
 };
 
 }  // namespace
-
-std::vector<std::array<std::uint32_t, 2>> pairs_that_meet(const Drop& drop, std::vector<FaceBox> faces) {
-  return FoldFinder(drop, std::move(faces)).meeting();
-}
-
-bool meet_each_other(const Drop& drop, std::vector<FaceBox> faces) {
-  const std::vector<PlacedTriangle> placed = placed_faces(drop, faces);
-  for (std::uint32_t k = 0; k < faces.size(); ++k) faces[k].face = k;
-  return !SortedBoxes(faces).for_each_pair(
-      [&](const FaceBox& f, const FaceBox& g) { return !meet(placed[f.face], placed[g.face]); });
-}
 
 std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before, const MergeOptions& options,
                                             Remesher& remesher, MergeReport& report) {

@@ -2,6 +2,7 @@
 #include "meniscus/topology/merge.h"
 
 #include "attribute_maps.h"
+#include "fold_finder.h"
 #include "meniscus/state/contact_line.h"
 #include "meniscus/state/ledger.h"
 #include "meniscus/topology/split.h"

@@ -23,14 +23,9 @@ void count_down_watch(Drop& drop, const EdgeBand& band);
 std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, const Ledger& ledger,
                           double target_volume, const MergeOptions& options, Remesher& remesher, MergeReport& report);
 
-/// Which of the faces meet elsewhere than in what they share: pairs, sorted.
-std::vector<std::array<std::uint32_t, 2>> pairs_that_meet(const Drop& drop, std::vector<FaceBox> faces);
-
-/// Whether any two of the faces do.
-bool meet_each_other(const Drop& drop, std::vector<FaceBox> faces);
-
 /// Moves the free vertices that are not `held` along their normals until the drop encloses `volume` (cm^3), those near
-/// held ones by less. Where faces of the region then meet, more vertices are held; if that does not end, nothing moves.
+/// held ones by less. Where faces of the region then meet, more vertices are held. What is left of the way then is
+/// left: the faces of the region do not meet if they did not before.
 void offset_around(Drop& drop, std::vector<std::uint32_t> held, double volume, const WatchedRegion& region);
 
 /// unite_with_itself of the given faces, which are sorted by index.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "fold_finder.h"
 #include "meniscus/state/offset_to_volume.h"
 #include "merge_parts.h"
 
@@ -58,24 +59,46 @@ bool find_offset(Drop& drop, const SurfaceGeometry& geometry, const std::vector<
   return true;
 }
 
+/// Takes vertices of faces that meet back to where they were `before`, until none meet; adds them to `held`. False if
+/// that does not end.
+bool take_back_meeting(Drop& drop, const Eigen::Matrix3Xd& before, const WatchedRegion& region,
+                       std::vector<std::uint32_t>& held) {
+  FoldFinder finder(drop, region.faces_of(drop));
+  while (!finder.meeting().empty()) {
+    const std::size_t count = held.size();
+    for (const auto& pair : finder.meeting())
+      for (const auto face : pair)
+        for (const auto v : drop.connectivity().triangles()[face]) {
+          if (drop.positions().col(v) == before.col(v)) continue;
+          drop.positions().col(v) = before.col(v);
+          held.push_back(v);
+        }
+    if (held.size() == count) return false;  // they met before
+    for (std::size_t k = count; k < held.size(); ++k) finder.move(held[k]);
+  }
+  return true;
+}
+
 }  // namespace
 
 void offset_around(Drop& drop, std::vector<std::uint32_t> held, double volume, const WatchedRegion& region) {
-  constexpr int most_rounds = 12;
+  constexpr int most_rounds = 4;
+  constexpr double enough = 0.25;  // of the error may be left where some vertices had to be taken back
   const double most = 0.5 * std::cbrt(0.75 * volume / M_PI);
   SurfaceGeometry geometry;
   geometry.compute(std::as_const(drop).positions(), drop.connectivity());
   const Eigen::Matrix3Xd before = drop.positions();
-  for (int round = 0; round < most_rounds; ++round) {
-    if (!find_offset(drop, geometry, shares_of_offset(drop, held), before, volume, most)) break;
-    const auto meeting = pairs_that_meet(drop, region.faces_of(drop));
-    if (meeting.empty()) return;
-    for (const auto& pair : meeting)
-      for (const auto face : pair)
-        for (const auto v : drop.connectivity().triangles()[face]) held.push_back(v);
+  const double error_before = std::abs(geometry.volume() - volume);
+  for (int round = 1; round <= most_rounds; ++round) {
+    const std::size_t count = held.size();
+    const bool is_sound = find_offset(drop, geometry, shares_of_offset(drop, held), before, volume, most) &&
+                          take_back_meeting(drop, before, region, held);
+    const double error = std::abs(drop.volume() - volume);
+    if (is_sound && (held.size() == count || error <= enough * error_before)) return;
+    if (is_sound && round == most_rounds && error < error_before) return;
     drop.positions() = before;
+    if (!is_sound) return;
   }
-  drop.positions() = before;
 }
 
 void restore_volume(Drop& drop, double volume, double edge_max) {

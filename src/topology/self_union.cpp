@@ -39,6 +39,107 @@ std::vector<std::uint32_t> first_of_twins(const Seam& seam) {
   return twin;
 }
 
+/// Which parts of a surface that crosses itself are kept, and which dropped: on any way along the surface they take
+/// turns at each crossing. Numbers stand for vertices and curves of the seam.
+class Turns {
+ public:
+  explicit Turns(std::size_t size) : sets_(2 * size) {}
+
+  void relate(std::uint32_t i, std::uint32_t j, bool differ) {
+    sets_.unite(2 * i, 2 * j + differ);
+    sets_.unite(2 * i + 1, 2 * j + !differ);
+  }
+  /// All that hangs together with i as it is, and as it is not; the same if i contradicts itself.
+  std::uint32_t set_of(std::uint32_t i) { return sets_.find(2 * i); }
+  std::uint32_t opposite_of(std::uint32_t i) { return sets_.find(2 * i + 1); }
+
+ private:
+  IndexSets sets_;
+};
+
+std::vector<double> areas_at_vertices(const MeshView& mesh) {
+  std::vector<double> area(static_cast<std::size_t>(mesh.points.cols()), 0);
+  for (const Triangle& t : mesh.triangles) {
+    if (is_removed(t)) continue;
+    const Eigen::Vector3d a = mesh.points.col(t[0]);
+    const double twice =
+        (Eigen::Vector3d(mesh.points.col(t[1])) - a).cross(Eigen::Vector3d(mesh.points.col(t[2])) - a).norm();
+    for (const auto v : t) area[v] += twice;
+  }
+  return area;
+}
+
+/// Whether what a face's segments enclose, none of which reaches its border, lies inside the other surface.
+bool encloses_inside(const MeshView& mesh, const Seam& seam, const SeamSegment* first, const SeamSegment* last) {
+  const Triangle& t = mesh.triangles[first->face_a];
+  const Eigen::Vector3d a = mesh.points.col(t[0]);
+  const Eigen::Vector3d normal =
+      (Eigen::Vector3d(mesh.points.col(t[1])) - a).cross(Eigen::Vector3d(mesh.points.col(t[2])) - a);
+  Eigen::Vector3d area = Eigen::Vector3d::Zero();
+  for (const SeamSegment* s = first; s != last; ++s)
+    area += (seam.crossings[s->from].point - a).cross(seam.crossings[s->to].point - a);
+  return area.dot(normal) > 0;
+}
+
+/// Where the two sides of a film have gone through each other, it is the air outside that overlaps: there what lies
+/// inside the other sheet is the liquid's surface. This turns the curves of the seam around such places, so that what
+/// lies outside is kept everywhere. Of all that hangs together by crossings the larger part is kept.
+void turn_inverted_curves(const MeshView& mesh, const std::vector<std::uint8_t>& is_cut, Seam& seam) {
+  auto& crossings = seam.crossings;
+  const auto num_vertices = static_cast<std::uint32_t>(mesh.points.cols());
+  IndexSets curves(crossings.size());
+  for (const SeamSegment& s : seam.segments) curves.unite(s.from, s.to);
+  const std::vector<std::uint32_t> twin = first_of_twins(seam);
+  for (std::uint32_t c = 0; c < twin.size(); ++c) curves.unite(c, twin[c]);
+  const auto curve = [&](std::uint32_t c) { return num_vertices + curves.find(c); };
+
+  Turns turns(num_vertices + crossings.size());
+  const auto key = [](const Crossing& c) { return std::tie(c.edge_of_a, c.low, c.high); };
+  const auto is_crossed = [&](std::uint32_t low, std::uint32_t high) {
+    const auto at = std::partition_point(crossings.begin(), crossings.end(),
+                                         [&](const Crossing& c) { return key(c) < std::tuple(true, low, high); });
+    return at != crossings.end() && key(*at) == std::tuple(true, low, high);
+  };
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    if (is_removed(t)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
+      if (is_cut[f] == 0 || !is_crossed(low, high)) turns.relate(low, high, false);
+    }
+  }
+  for (std::uint32_t c = 0; c < crossings.size(); ++c) {
+    const Crossing& crossing = crossings[c];
+    if (!crossing.edge_of_a) continue;
+    if (c == 0 || key(crossings[c - 1]) != key(crossing)) turns.relate(crossing.low, curve(c), crossing.low_is_inside);
+    const bool is_last = c + 1 == crossings.size() || key(crossings[c + 1]) != key(crossing);
+    if (is_last)
+      turns.relate(crossing.high, curve(c), !crossing.low_is_inside);
+    else
+      turns.relate(curve(c), curve(c + 1), crossing.low_is_inside == crossings[c + 1].low_is_inside);
+  }
+  const SeamSegment* const end = seam.segments.data() + seam.segments.size();
+  for (const SeamSegment *first = seam.segments.data(), *last = first; first != end; first = last) {
+    bool reaches_border = false;
+    for (; last != end && last->face_a == first->face_a; ++last)
+      reaches_border = reaches_border || crossings[last->from].edge_of_a || crossings[last->to].edge_of_a;
+    if (!reaches_border)
+      turns.relate(mesh.triangles[first->face_a][0], curve(first->from), !encloses_inside(mesh, seam, first, last));
+  }
+
+  const std::vector<double> area = areas_at_vertices(mesh);
+  std::vector<double> weight(2 * (num_vertices + crossings.size()), 0);
+  for (std::uint32_t v = 0; v < num_vertices; ++v) weight[turns.set_of(v)] += area[v];
+  const auto is_inverted = [&](std::uint32_t c) {
+    const std::uint32_t set = turns.set_of(curve(c)), opposite = turns.opposite_of(curve(c));
+    return weight[set] != weight[opposite] ? weight[set] < weight[opposite] : set > opposite;
+  };
+  for (SeamSegment& s : seam.segments)
+    if (is_inverted(s.from)) std::swap(s.from, s.to);
+  for (std::uint32_t c = 0; c < crossings.size(); ++c)
+    if (is_inverted(c)) crossings[c].low_is_inside = !crossings[c].low_is_inside;
+}
+
 /// Carries the places of cut faces' vertices over the uncut faces; what nothing tells about stays. False on
 /// a contradiction.
 bool spread_places(const MeshView& mesh, const std::vector<std::uint8_t>& is_cut, std::vector<Place>& place) {
@@ -119,15 +220,16 @@ BooleanResult unite_with_itself(const MeshView& mesh, const Eigen::AlignedBox3d&
 }
 
 BooleanResult unite_with_itself(const MeshView& mesh, const std::vector<FaceBox>& faces, bool keep_cavities) {
-  const auto seam = find_self_seam(mesh, faces);
+  auto seam = find_self_seam(mesh, faces);
   if (!seam) return refuse("the surface folds over between neighbouring faces");
   BooleanResult result;
   result.outcome = BooleanOutcome::disjoint;
   if (seam->crossings.empty()) return result;
+  std::vector<std::uint8_t> is_cut(mesh.triangles.size(), 0);
+  for (const SeamSegment& segment : seam->segments) is_cut[segment.face_a] = 1;
+  turn_inverted_curves(mesh, is_cut, *seam);
   auto cut = cut_faces(mesh, mesh, *seam, true, Place::outside);
   if (!cut) return refuse("the surface crosses itself in more than simple curves");
-  std::vector<std::uint8_t> is_cut(mesh.triangles.size(), 0);
-  for (const auto f : cut->faces) is_cut[f] = 1;
   if (!spread_places(mesh, is_cut, cut->place)) return refuse("a part of the surface is both inside and outside");
   std::vector<std::uint32_t> near;
   result = assemble(mesh, *seam, *cut, is_cut, faces, near);

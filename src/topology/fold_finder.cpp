@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fold_finder.h"
+
+#include "placed_face.h"
+#include "sorted_boxes.h"
+
+#include <algorithm>
+
+namespace meniscus {
+namespace {
+
+std::vector<PlacedTriangle> placed_faces(const Drop& drop, const std::vector<FaceBox>& faces) {
+  const MeshView mesh = view_of(drop);
+  std::vector<PlacedTriangle> placed;
+  placed.reserve(faces.size());
+  for (const FaceBox& face : faces) placed.push_back(placed_face(mesh, face.face));
+  return placed;
+}
+
+}  // namespace
+
+FoldFinder::FoldFinder(const Drop& drop, std::vector<FaceBox> faces)
+    : drop_(drop),
+      faces_(std::move(faces)),
+      place_(drop.connectivity().triangles().size(), none),
+      has_moved_(faces_.size(), 0),
+      is_waiting_(faces_.size(), 0) {
+  const std::vector<PlacedTriangle> placed = placed_faces(drop_, faces_);
+  for (std::uint32_t k = 0; k < faces_.size(); ++k) place_[faces_[k].face] = k;
+  SortedBoxes(faces_).for_each_pair([&](const FaceBox& f, const FaceBox& g) {
+    if (meet(placed[place_[f.face]], placed[place_[g.face]]))
+      meeting_.push_back({std::min(f.face, g.face), std::max(f.face, g.face)});
+    return true;
+  });
+  std::sort(meeting_.begin(), meeting_.end());
+}
+
+void FoldFinder::move(std::uint32_t v) {
+  const Ring ring = drop_.connectivity().ring(v);
+  for (int k = 0; k < ring.degree; ++k) {
+    const std::uint32_t place = place_of(ring.corner[k] / 3);
+    if (is_waiting_[place] != 0) continue;
+    is_waiting_[place] = has_moved_[place] = 1;
+    waiting_.push_back(place);
+  }
+}
+
+const std::vector<FoldFinder::Pair>& FoldFinder::meeting() {
+  if (!waiting_.empty()) look_again();
+  return meeting_;
+}
+
+std::uint32_t FoldFinder::place_of(std::uint32_t face) {
+  if (place_[face] == none) {
+    place_[face] = static_cast<std::uint32_t>(faces_.size());
+    faces_.push_back({box_now(face), face});
+    has_moved_.push_back(1);
+    is_waiting_.push_back(0);
+  }
+  return place_[face];
+}
+
+void FoldFinder::add_faces_near_waiting() {
+  Eigen::AlignedBox3d box;
+  for (const std::uint32_t place : waiting_) box.extend(box_now(faces_[place].face));
+  for (const FaceBox& near : faces_in(view_of(drop_), box)) place_of(near.face);
+}
+
+/// The grid knows faces where they were at first; those that have moved since, or are new, are in one of their own.
+void FoldFinder::look_again() {
+  add_faces_near_waiting();
+  if (!grid_) grid_.emplace(faces_);
+  const MeshView mesh = view_of(drop_);
+  const auto waits = [&](std::uint32_t face) { return is_waiting_[place_[face]] != 0; };
+  meeting_.erase(
+      std::remove_if(meeting_.begin(), meeting_.end(), [&](const Pair& p) { return waits(p[0]) || waits(p[1]); }),
+      meeting_.end());
+  std::vector<FaceBox> moved;
+  for (std::uint32_t k = 0; k < faces_.size(); ++k)
+    if (has_moved_[k] != 0) moved.push_back({box_now(faces_[k].face), faces_[k].face});
+  const FaceGrid moved_grid(moved);
+  for (const std::uint32_t place : waiting_) {
+    const std::uint32_t f = faces_[place].face;
+    const PlacedTriangle placed = placed_face(mesh, f);
+    const auto test = [&](std::uint32_t g) {
+      if (meet(placed, placed_face(mesh, g))) meeting_.push_back({std::min(f, g), std::max(f, g)});
+      return true;
+    };
+    const Eigen::AlignedBox3d box = placed.box();
+    grid_->for_each_meeting(box, [&](const FaceBox& g) { return has_moved_[place_[g.face]] != 0 || test(g.face); });
+    moved_grid.for_each_meeting(box, [&](const FaceBox& g) {
+      const bool is_seen_from_there = waits(g.face) && g.face < f;
+      return g.face == f || is_seen_from_there || test(g.face);
+    });
+  }
+  for (const std::uint32_t place : waiting_) is_waiting_[place] = 0;
+  waiting_.clear();
+  std::sort(meeting_.begin(), meeting_.end());
+}
+
+Eigen::AlignedBox3d FoldFinder::box_now(std::uint32_t face) const {
+  Eigen::AlignedBox3d box;
+  for (const auto v : drop_.connectivity().triangles()[face]) box.extend(Eigen::Vector3d(drop_.positions().col(v)));
+  return box;
+}
+
+bool meet_each_other(const Drop& drop, std::vector<FaceBox> faces) {
+  const std::vector<PlacedTriangle> placed = placed_faces(drop, faces);
+  for (std::uint32_t k = 0; k < faces.size(); ++k) faces[k].face = k;
+  return !SortedBoxes(faces).for_each_pair(
+      [&](const FaceBox& f, const FaceBox& g) { return !meet(placed[f.face], placed[g.face]); });
+}
+
+}  // namespace meniscus

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "face_grid.h"
+#include "meniscus/state/drop.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace meniscus {
+
+/// Some faces of a drop, and which of them meet each other elsewhere than in what they share. When vertices move, the
+/// faces at them belong to it, and those that these may then meet.
+class FoldFinder {
+ public:
+  using Pair = std::array<std::uint32_t, 2>;
+
+  /// Keeps a reference to the drop, whose mesh must not change.
+  FoldFinder(const Drop& drop, std::vector<FaceBox> faces);
+
+  /// The vertex has another place now.
+  void move(std::uint32_t v);
+  /// Pairs of faces that meet, each sorted, in order.
+  const std::vector<Pair>& meeting();
+
+ private:
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+  /// Of a face, which belongs to the list from then on; the grid does not know it.
+  std::uint32_t place_of(std::uint32_t face);
+  void add_faces_near_waiting();
+  void look_again();
+  Eigen::AlignedBox3d box_now(std::uint32_t face) const;
+
+  const Drop& drop_;
+  std::vector<FaceBox> faces_;                        // where they were at first
+  std::optional<FaceGrid> grid_;                      // from the first move on
+  std::vector<std::uint32_t> place_;                  // of a face in the list
+  std::vector<std::uint8_t> has_moved_, is_waiting_;  // has_moved_: or is not in the grid
+  std::vector<std::uint32_t> waiting_;                // places of faces that have moved since the last look
+  std::vector<Pair> meeting_;
+};
+
+/// Whether any two of the faces meet elsewhere than in what they share.
+bool meet_each_other(const Drop& drop, std::vector<FaceBox> faces);
+
+}  // namespace meniscus

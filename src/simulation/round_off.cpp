@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// In lengths of edge_min.
-constexpr double thinnest_film = 0.25;
+constexpr double thinnest_film = 0.25;  // in lengths of edge_min
+constexpr double smallest_shape = 2;    // radius of the ball, in lengths of edge_max
 
 /// A ball about `center` that reaches into solids goes out of them along their normals.
 Vector3d clear_of_solids(Vector3d center, double radius, const std::vector<Solid>& solids, double time) {
@@ -51,7 +51,7 @@ bool is_knot(const Drop& drop) {
 bool is_speck(const Drop& drop, const EdgeBand& band) { return ball_radius(drop) < band.edge_max; }
 
 bool has_no_shape(const Drop& drop, const EdgeBand& band) {
-  if (is_speck(drop, band)) return true;
+  if (ball_radius(drop) < smallest_shape * band.edge_max) return true;
   SurfaceGeometry geometry;
   geometry.compute(drop.positions(), drop.connectivity());
   return 2 * drop.target_volume() < thinnest_film * band.edge_min * geometry.area();

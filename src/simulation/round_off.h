@@ -14,8 +14,8 @@ namespace meniscus {
 /// The drop is hardly larger than an edge: its mesh says how much liquid is there, and where, but not its shape.
 bool is_speck(const Drop& drop, const EdgeBand& band);
 
-/// A speck, or a film so much thinner than its edges are long that it would have torn: what becomes of it when no
-/// operator can step it any more does not depend on its shape.
+/// A drop of not much more than a hundred faces, or a film so much thinner than its edges are long that it would have
+/// torn: what becomes of it when no operator can step it any more does not depend on its shape.
 bool has_no_shape(const Drop& drop, const EdgeBand& band);
 
 /// The ball that holds a drop's target volume: what is left of one without a shape that no operator can step any more.

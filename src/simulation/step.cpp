@@ -12,6 +12,7 @@
 #include "meniscus/operators/volume_correction.h"
 #include "meniscus/state/contact_line.h"
 #include "meniscus/state/free_rigid_motion.h"
+#include "meniscus/state/ledger.h"
 #include "recover_step.h"
 #include "round_off.h"
 #include "step_parts.h"
@@ -299,10 +300,9 @@ std::vector<Drop> all_pieces(bool is_there, Drop& drop, std::vector<Drop> cut_of
   return cut_off;
 }
 
-}  // namespace
-
-bool step_in_place(Drop& drop, std::vector<Drop>& cut_off, const std::vector<Solid>& solids, double time, double dt,
-                   const StepOptions& options, Remesher& remesher, StepReport& report) {
+/// step_in_place, but for the momentum of drops in flight.
+bool step_by_operators(Drop& drop, std::vector<Drop>& cut_off, const std::vector<Solid>& solids, double time, double dt,
+                       const StepOptions& options, Remesher& remesher, StepReport& report) {
   if (options.level == Level::pressure)
     return step_by_pressure(drop, cut_off, solids, time, dt, options, remesher, report);
   int left = num_substeps(drop, solids, time, dt, options);
@@ -330,6 +330,47 @@ bool step_in_place(Drop& drop, std::vector<Drop>& cut_off, const std::vector<Sol
     for (Drop& part_of_it : step_drop(std::move(piece), solids, time, left * part, options, remesher, report))
       all.push_back(std::move(part_of_it));
   return replace_by_pieces(drop, cut_off, std::move(all));
+}
+
+/// Whether no solid can touch a drop within dt.
+bool is_in_flight(const Drop& drop, const std::vector<Solid>& solids, double time, double dt, const Vector3d& gravity) {
+  if (touches_solid(drop)) return false;
+  if (solids.empty()) return true;
+  const Eigen::AlignedBox3d box = bounding_box(drop);
+  const double move = (top_speed(drop) + gravity.norm() * dt) * dt;
+  return std::none_of(solids.begin(), solids.end(), [&](const Solid& solid) {
+    return solid.is_near(box, time, move + solid.velocity(time).norm() * dt);
+  });
+}
+
+/// Gives a drop, and what was cut off it, together the velocity that they ought to have.
+void restore_velocity(Drop* drop, std::vector<Drop>& cut_off, std::size_t first, const Vector3d& wanted) {
+  double volume = 0;
+  Vector3d momentum = Vector3d::Zero();
+  const auto add = [&](const Drop& piece) {
+    const MeanMotion motion = mean_motion(piece);
+    volume += motion.volume;
+    momentum += motion.volume * motion.velocity;
+  };
+  if (drop) add(*drop);
+  std::for_each(cut_off.begin() + static_cast<std::ptrdiff_t>(first), cut_off.end(), add);
+  if (!(volume > 0)) return;
+  const Vector3d missing = wanted - momentum / volume;
+  if (drop) drop->velocities().colwise() += missing;
+  for (std::size_t p = first; p < cut_off.size(); ++p) cut_off[p].velocities().colwise() += missing;
+}
+
+}  // namespace
+
+bool step_in_place(Drop& drop, std::vector<Drop>& cut_off, const std::vector<Solid>& solids, double time, double dt,
+                   const StepOptions& options, Remesher& remesher, StepReport& report) {
+  if (options.level == Level::paper || !is_in_flight(drop, solids, time, dt, options.gravity))
+    return step_by_operators(drop, cut_off, solids, time, dt, options, remesher, report);
+  const MeanMotion before = mean_motion(drop);
+  const std::size_t first = cut_off.size();
+  const bool goes_on = step_by_operators(drop, cut_off, solids, time, dt, options, remesher, report);
+  restore_velocity(goes_on ? &drop : nullptr, cut_off, first, before.velocity + dt * options.gravity);
+  return goes_on;
 }
 
 std::vector<Drop> step_drop(Drop drop, const std::vector<Solid>& solids, double time, double dt,

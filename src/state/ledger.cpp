@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/state/ledger.h"
 
+#include "meniscus/core/chunks.h"
+#include "meniscus/geometry/four_triangles.h"
 #include "meniscus/geometry/rigid_motion.h"
 #include "meniscus/state/offset_to_volume.h"
 
@@ -105,7 +107,58 @@ void fit_momentum(Drop& drop, const SurfaceGeometry& geometry, const Vector3d& c
   }
 }
 
+/// What mean_motion sums over faces, four at a time, times 6, 6, 24 and 24: enclosed volume, flux of the velocity,
+/// first moment of the volume, and momentum about the origin.
+struct FourMotions {
+  Four volume{}, flux{};
+  FourVectors first{}, momentum{};
+};
+
+Vector3d sum_of(const FourVectors& v) { return {sum(v.x), sum(v.y), sum(v.z)}; }
+
+struct Motions {
+  double volume = 0, flux = 0;
+  Vector3d first = Vector3d::Zero(), momentum = Vector3d::Zero();
+
+  Motions& operator+=(const Motions& other) {
+    volume += other.volume;
+    flux += other.flux;
+    first += other.first;
+    momentum += other.momentum;
+    return *this;
+  }
+};
+
 }  // namespace
+
+MeanMotion mean_motion(const Drop& drop) {
+  const auto& triangles = drop.connectivity().triangles();
+  const ConstColumns x = drop.positions(), u = drop.velocities();
+  const Vector3d o = reference_point(drop);
+  const FourVectors origin{constant(o.x()), constant(o.y()), constant(o.z())};
+  const Motions sums = sum_over_chunks(triangles.size(), Motions{}, [&](std::size_t begin, std::size_t end) {
+    FourMotions part;
+    for (std::size_t first = begin; first < end; first += 4) {
+      const FourTriangles four(triangles, first, end);
+      const FourVectors p = four.corner(x.data(), 0) - origin, q = four.corner(x.data(), 1) - origin,
+                        r = four.corner(x.data(), 2) - origin, area = (q - p).cross(r - p);
+      const Four volume = p.dot(area);
+      part.volume += volume;
+      part.first.x += volume * (p.x + q.x + r.x);
+      part.first.y += volume * (p.y + q.y + r.y);
+      part.first.z += volume * (p.z + q.z + r.z);
+      const Four at_p = four.corner(u.data(), 0).dot(area), at_q = four.corner(u.data(), 1).dot(area),
+                 at_r = four.corner(u.data(), 2).dot(area), flux = at_p + at_q + at_r;
+      part.flux += flux;
+      part.momentum.x += (flux + at_p) * p.x + (flux + at_q) * q.x + (flux + at_r) * r.x;
+      part.momentum.y += (flux + at_p) * p.y + (flux + at_q) * q.y + (flux + at_r) * r.y;
+      part.momentum.z += (flux + at_p) * p.z + (flux + at_q) * q.z + (flux + at_r) * r.z;
+    }
+    return Motions{sum(part.volume) / 6, sum(part.flux) / 6, sum_of(part.first) / 24, sum_of(part.momentum) / 24};
+  });
+  if (!(sums.volume > 0)) return {};
+  return {sums.volume, (sums.momentum - sums.flux / sums.volume * sums.first) / sums.volume};
+}
 
 Ledger& Ledger::operator+=(const Ledger& other) {
   volume += other.volume;

@@ -3,6 +3,7 @@
 
 #include "meniscus/geometry/shapes.h"
 
+#include <CGAL/boost/graph/Euler_operations.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,6 +55,21 @@ Drop lively_drop() {
     drop.velocities().col(i) = 30 * Vector3d(std::cos(9 * x.z()), std::sin(8 * x.x()), x.y() + 1);
   }
   return drop;
+}
+
+TEST(Ledger, MeanMotionIsItsMomentumByItsVolume) {
+  for (const bool has_gaps : {false, true}) {
+    Drop drop = lively_drop();
+    if (has_gaps) {  // rows and faces that are no more
+      CGAL::Euler::collapse_edge(drop.mesh().edge(drop.mesh().halfedge(VertexIndex(0))), drop.mesh());
+      drop.connectivity().rebuild(drop.mesh());
+    }
+    const Ledger ledger = measure_ledger(drop);
+    const MeanMotion motion = mean_motion(drop);
+    EXPECT_NEAR(motion.volume, ledger.volume, 1e-14 * ledger.volume);
+    EXPECT_LT(relative(motion.velocity, ledger.momentum / ledger.volume), 1e-12);
+  }
+  EXPECT_EQ(mean_motion(Drop(make_box({0, 0, 0}, {1, 1, 1}, 1))).velocity, Vector3d::Zero());
 }
 
 Ledger wanted_ledger() {

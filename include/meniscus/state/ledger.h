@@ -40,6 +40,14 @@ void restore_ledger(Drop& drop, const Ledger& ledger, bool with_volume = true);
 /// among them by volume.
 void restore_ledger(std::vector<Drop>& pieces, const Ledger& ledger, bool with_volume = true);
 
+/// How a drop moves as a whole: the enclosed volume (cm^3) and P/V (cm/s), of the P of measure_ledger. Zero without
+/// enclosed volume.
+struct MeanMotion {
+  double volume = 0;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+};
+MeanMotion mean_motion(const Drop& drop);
+
 /// The centre of mass of the enclosed volume (cm); zero if the volume vanishes.
 Eigen::Vector3d volume_centroid(const Drop& drop);
 

@@ -76,6 +76,11 @@ PressureStep::PressureStep(Drop& drop, const std::vector<Solid>& solids, double 
   Vector3d U = Vector3d::Zero();
   for (std::size_t v = 0; v < surface.role.size(); ++v) U += arrays.speed_old[v] * surface.moment[v];
   if (surface.volume > 0) U /= surface.volume;
+  if (options.velocity && !surface.in_contact) {
+    for (std::size_t v = 0; v < surface.role.size(); ++v)
+      arrays.speed_old[v] += surface.form[v].dot(*options.velocity - U);
+    report_.velocity = U = *options.velocity;
+  }
   for (std::size_t v = 0; v < surface.role.size(); ++v)
     if (is_moving(surface.role[v]))
       top_speed_ = std::max(top_speed_, std::abs(arrays.speed_old[v] - surface.form[v].dot(U)) / surface.slant[v]);

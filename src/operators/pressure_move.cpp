@@ -240,6 +240,7 @@ PressureReport PressureStep::move() {
                                                  : Vector3d(Vector3d::Zero());
   }
   write_velocities(drop_, motion, arrays);
+  report_.velocity = motion.drift();
   lift_films(drop_, solids_, time_ + dt_, low_film * options_.edge_min);
   report_.relative_volume_error = surface.volume / drop_.target_volume() - 1;
   return report_;

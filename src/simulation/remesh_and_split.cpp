@@ -2,6 +2,7 @@
 #include "meniscus/core/error.h"
 #include "meniscus/geometry/rigid_motion.h"
 #include "meniscus/state/judge.h"
+#include "meniscus/state/ledger.h"
 #include "meniscus/topology/split.h"
 #include "round_off.h"
 #include "step_parts.h"
@@ -33,6 +34,22 @@ void stiffen_speck(Drop& piece, const EdgeBand& band) {
 }
 
 }  // namespace
+
+void restore_velocity(Drop* drop, std::vector<Drop>& cut_off, std::size_t first, const Eigen::Vector3d& velocity) {
+  double volume = 0;
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+  const auto add = [&](const Drop& piece) {
+    const MeanMotion motion = mean_motion(piece);
+    volume += motion.volume;
+    momentum += motion.volume * motion.velocity;
+  };
+  if (drop) add(*drop);
+  std::for_each(cut_off.begin() + static_cast<std::ptrdiff_t>(first), cut_off.end(), add);
+  if (!(volume > 0)) return;
+  const Eigen::Vector3d missing = velocity - momentum / volume;
+  if (drop) drop->velocities().colwise() += missing;
+  for (std::size_t p = first; p < cut_off.size(); ++p) cut_off[p].velocities().colwise() += missing;
+}
 
 void keep_inflow(std::vector<Drop>& pieces, const std::vector<Solid>& solids, double inflow) {
   if (inflow == 0 || pieces.empty()) return;
@@ -108,6 +125,12 @@ LastSound last_sound(const Drop& drop, const ConstColumns& positions, const std:
   return last;
 }
 
+/// Counts the substeps in a row after which most vertices had to be taken back.
+void count_stuck(Drop& drop, std::size_t taken_back) {
+  const bool is_stuck = taken_back > 0 && 2 * taken_back >= drop.mesh().number_of_vertices();
+  drop.set_stuck_substeps(is_stuck ? drop.stuck_substeps() + 1 : 0);
+}
+
 /// remesh_and_split, before specks are looked at. `after` says for what a drop may be found unsound; nullptr: no
 /// element changed.
 bool change_topology(Drop& drop, std::vector<Drop>& cut_off, const ConstColumns& before,
@@ -122,10 +145,12 @@ bool change_topology(Drop& drop, std::vector<Drop>& cut_off, const ConstColumns&
     watch_thin_sheets(drop, drop.workspace().geometry.area(), options.band);
   }
   const bool is_watched = has_to_look && may_fold(drop, merge_options(options));
+  if (!is_watched) drop.set_stuck_substeps(0);
   if (is_watched) {
     MergeReport merge;
     auto mended = mend_folds(drop, last_sound(drop, before, solids, time, dt), merge_options(options), remesher, merge);
     report += merge;
+    count_stuck(drop, merge.taken_back);
     clock.done(Stage::merge);
     if (mended) {
       for (Drop& piece : *mended) give_back_volume(piece, options);
@@ -154,6 +179,7 @@ bool change_topology(Drop& drop, std::vector<Drop>& cut_off, const ConstColumns&
   std::vector<Drop> pieces = split_components(std::move(drop), split, least_volume(options.band.edge_min));
   report.deleted += split.deleted + split.deleted_empty;
   for (Drop& piece : pieces) {
+    calm_torn_piece(piece);
     stiffen_speck(piece, options.band);
     give_back_volume(piece, options);
   }
@@ -181,7 +207,7 @@ bool remesh_and_split(Drop& drop, std::vector<Drop>& cut_off, const ConstColumns
   const auto finish = [&](Drop& piece) {
     const bool is_rounded = round_off_knot(piece, version, solids, time, options.band);
     report.rounded += is_rounded;
-    if (is_rounded) after = "a speck was rounded off";
+    if (is_rounded) after = "a drop was rounded off";
     if (options.verify != Verify::nothing && after != nullptr) verify_topology(piece, after);
   };
   finish(drop);

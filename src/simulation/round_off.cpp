@@ -15,6 +15,8 @@ using Eigen::Vector3d;
 
 constexpr double thinnest_film = 0.25;  // in lengths of edge_min
 constexpr double smallest_shape = 2;    // radius of the ball, in lengths of edge_max
+/// A drop that has been stuck for so many substeps in a row does not get free by itself.
+constexpr int most_stuck = 30;
 
 /// A ball about `center` that reaches into solids goes out of them along their normals.
 Vector3d clear_of_solids(Vector3d center, double radius, const std::vector<Solid>& solids, double time) {
@@ -50,7 +52,8 @@ bool is_knot(const Drop& drop) {
 
 bool is_speck(const Drop& drop, const EdgeBand& band) { return ball_radius(drop) < band.edge_max; }
 
-bool has_no_shape(const Drop& drop, const EdgeBand& band) {
+bool may_be_rounded_off(const Drop& drop, const EdgeBand& band) {
+  if (!drop.positions().allFinite() || !drop.velocities().allFinite()) return false;
   if (ball_radius(drop) < smallest_shape * band.edge_max) return true;
   SurfaceGeometry geometry;
   geometry.compute(drop.positions(), drop.connectivity());
@@ -75,8 +78,9 @@ Drop rounded_off(const Drop& drop, const std::vector<Solid>& solids, double time
 
 bool round_off_knot(Drop& drop, std::uint64_t version, const std::vector<Solid>& solids, double time,
                     const EdgeBand& band) {
-  if (!is_speck(drop, band) || (drop.topology_version() == version && !is_watched(drop)) || !is_knot(drop))
-    return false;
+  const bool is_stuck = drop.stuck_substeps() >= most_stuck && may_be_rounded_off(drop, band);
+  const bool may_be_knot = is_speck(drop, band) && (drop.topology_version() != version || is_watched(drop));
+  if (!is_stuck && !(may_be_knot && is_knot(drop))) return false;
   drop = rounded_off(drop, solids, time, 0, band);
   return true;
 }

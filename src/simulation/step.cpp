@@ -280,7 +280,7 @@ bool substep(Drop& drop, std::vector<Drop>& cut_off, const std::vector<Solid>& s
   try {
     deform_or_recover(drop, time, dt, options, report, move);
   } catch (const NumericsError&) {
-    if (!has_no_shape(drop, options.band)) throw;
+    if (!may_be_rounded_off(drop, options.band)) throw;
     ++report.rounded;
     drop = rounded_off(drop, solids, time, dt, options.band);
     return true;
@@ -300,11 +300,9 @@ std::vector<Drop> all_pieces(bool is_there, Drop& drop, std::vector<Drop> cut_of
   return cut_off;
 }
 
-/// step_in_place, but for the momentum of drops in flight.
+/// step_in_place of the other levels, but for the momentum of drops in flight.
 bool step_by_operators(Drop& drop, std::vector<Drop>& cut_off, const std::vector<Solid>& solids, double time, double dt,
                        const StepOptions& options, Remesher& remesher, StepReport& report) {
-  if (options.level == Level::pressure)
-    return step_by_pressure(drop, cut_off, solids, time, dt, options, remesher, report);
   int left = num_substeps(drop, solids, time, dt, options);
   report.substeps = std::max(report.substeps, left);
   const double part = dt / left, inflow = drop.inflow();
@@ -343,27 +341,12 @@ bool is_in_flight(const Drop& drop, const std::vector<Solid>& solids, double tim
   });
 }
 
-/// Gives a drop, and what was cut off it, together the velocity that they ought to have.
-void restore_velocity(Drop* drop, std::vector<Drop>& cut_off, std::size_t first, const Vector3d& wanted) {
-  double volume = 0;
-  Vector3d momentum = Vector3d::Zero();
-  const auto add = [&](const Drop& piece) {
-    const MeanMotion motion = mean_motion(piece);
-    volume += motion.volume;
-    momentum += motion.volume * motion.velocity;
-  };
-  if (drop) add(*drop);
-  std::for_each(cut_off.begin() + static_cast<std::ptrdiff_t>(first), cut_off.end(), add);
-  if (!(volume > 0)) return;
-  const Vector3d missing = wanted - momentum / volume;
-  if (drop) drop->velocities().colwise() += missing;
-  for (std::size_t p = first; p < cut_off.size(); ++p) cut_off[p].velocities().colwise() += missing;
-}
-
 }  // namespace
 
 bool step_in_place(Drop& drop, std::vector<Drop>& cut_off, const std::vector<Solid>& solids, double time, double dt,
                    const StepOptions& options, Remesher& remesher, StepReport& report) {
+  if (options.level == Level::pressure)
+    return step_by_pressure(drop, cut_off, solids, time, dt, options, remesher, report);
   if (options.level == Level::paper || !is_in_flight(drop, solids, time, dt, options.gravity))
     return step_by_operators(drop, cut_off, solids, time, dt, options, remesher, report);
   const MeanMotion before = mean_motion(drop);

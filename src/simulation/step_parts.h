@@ -41,6 +41,10 @@ inline double top_speed(const Drop& drop, const Eigen::Vector3d& frame = Eigen::
 /// Puts the first of the pieces in the drop's place and the others behind `cut_off`. Returns whether there was one.
 bool replace_by_pieces(Drop& drop, std::vector<Drop>& cut_off, std::vector<Drop> pieces);
 
+/// Gives a drop (nullptr: none), and what was cut off it from `first` on, together the velocity (cm/s) that they ought
+/// to have.
+void restore_velocity(Drop* drop, std::vector<Drop>& cut_off, std::size_t first, const Eigen::Vector3d& velocity);
+
 /// What sources gave the drop (cm^3/s) goes to the one of its pieces that hangs from a source; to the first if none
 /// does.
 void keep_inflow(std::vector<Drop>& pieces, const std::vector<Solid>& solids, double inflow);

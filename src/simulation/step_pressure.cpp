@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/core/error.h"
 #include "meniscus/operators/pressure.h"
+#include "meniscus/state/ledger.h"
 #include "recover_step.h"
 #include "round_off.h"
 #include "step_parts.h"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace meniscus {
 namespace {
@@ -35,15 +37,17 @@ PressureOptions pressure_options(const StepOptions& step) {
 
 /// How far a drop is on its way through the step.
 struct Way {
-  double left;  ///< s to the end of the step
-  double next;  ///< s to try
+  double left;                                ///< s to the end of the step
+  double next;                                ///< s to try
+  std::optional<Eigen::Vector3d> velocity{};  ///< with which its centre of mass flies on; none on a solid
   int substeps = 0;
 };
 
-/// One substep of at most `longest` (s): how long it was.
-double substep(Drop& drop, const std::vector<Solid>& solids, double time, double longest, double shortest,
-               const StepOptions& options, StageClock& clock, StepReport& report) {
-  const PressureOptions pressure = pressure_options(options);
+/// One substep of at most `longest` (s): how long it was. Carries `velocity` on, if there is one.
+double substep(Drop& drop, std::optional<Eigen::Vector3d>& velocity, const std::vector<Solid>& solids, double time,
+               double longest, double shortest, const StepOptions& options, StageClock& clock, StepReport& report) {
+  PressureOptions pressure = pressure_options(options);
+  pressure.velocity = velocity;
   PressureStep step(drop, solids, time, pressure);
   clock.done(Stage::geometry);
   double dt = longest;
@@ -56,6 +60,7 @@ double substep(Drop& drop, const std::vector<Solid>& solids, double time, double
   clock.done(Stage::curvature_flow);
   drop.set_target_volume(drop.target_volume() + drop.inflow() * dt);
   const PressureReport done = step.move();
+  if (velocity) velocity = done.velocity;
   report.solver_iterations = std::max(report.solver_iterations, done.iterations);
   report.worst_volume_error = std::max(report.worst_volume_error, std::abs(done.relative_volume_error));
   clock.done(Stage::volume_correction);
@@ -64,19 +69,22 @@ double substep(Drop& drop, const std::vector<Solid>& solids, double time, double
 
 /// The same; a substep after which the drop is not fit to go on is taken back and tried at half its length.
 /// Throws NumericsError when one of `shortest` fails too.
-double substep_or_recover(Drop& drop, const std::vector<Solid>& solids, double time, double longest, double shortest,
-                          const StepOptions& options, const KeptState& kept, StageClock& clock, StepReport& report) {
+double substep_or_recover(Drop& drop, std::optional<Eigen::Vector3d>& velocity, const std::vector<Solid>& solids,
+                          double time, double longest, double shortest, const StepOptions& options,
+                          const KeptState& kept, StageClock& clock, StepReport& report) {
+  const std::optional<Eigen::Vector3d> velocity_before = velocity;
   for (;;) {
     std::string wrong;
     double dt = longest;
     try {
-      dt = substep(drop, solids, time, longest, shortest, options, clock, report);
+      dt = substep(drop, velocity, solids, time, longest, shortest, options, clock, report);
       wrong = blow_up(drop, kept);
     } catch (const NumericsError& error) {
       wrong = error.what();
     }
     if (wrong.empty()) return dt;
     kept.restore(drop);
+    velocity = velocity_before;
     if (dt <= shortest)
       throw NumericsError(fmt::format("drop {} at {:.6g} s: {}, even in substeps of {:.2g} s; use a smaller time step",
                                       drop.id(), time, wrong, dt));
@@ -88,8 +96,8 @@ double substep_or_recover(Drop& drop, const std::vector<Solid>& solids, double t
 /// One substep of at most way.left. Writes what to try next.
 void take_substep(Drop& drop, Way& way, const std::vector<Solid>& solids, double time, double shortest,
                   const StepOptions& options, const KeptState& kept, StageClock& clock, StepReport& report) {
-  const double dt = substep_or_recover(drop, solids, time - way.left, std::min(way.next, way.left), shortest, options,
-                                       kept, clock, report);
+  const double dt = substep_or_recover(drop, way.velocity, solids, time - way.left, std::min(way.next, way.left),
+                                       shortest, options, kept, clock, report);
   way.left -= dt;
   if (way.left < 0.5 * shortest) {
     drop.set_target_volume(drop.target_volume() + drop.inflow() * way.left);
@@ -110,6 +118,20 @@ void rest(Drop& speck, Way& way, const std::vector<Solid>& solids, double time) 
   way.left = 0;
 }
 
+/// With what velocity a drop sets out on a substep.
+void set_out(const Drop& drop, Way& way) {
+  if (touches_solid(drop))
+    way.velocity.reset();
+  else if (!way.velocity)
+    way.velocity = mean_motion(drop).velocity;
+}
+
+/// What a drop in flight became at the end of its way has that velocity, whatever its surface says.
+void arrive(Drop& drop, std::vector<Drop>& cut_off, const Way& way) {
+  if (!way.velocity || touches_solid(drop) || std::any_of(cut_off.begin(), cut_off.end(), touches_solid)) return;
+  restore_velocity(&drop, cut_off, 0, *way.velocity);
+}
+
 /// Takes a drop to the end of the step of dt, or until something is cut off it: that lies in `cut_off` then. Returns
 /// whether the drop goes on.
 bool travel(Drop& drop, Way& way, std::vector<Drop>& cut_off, const std::vector<Solid>& solids, double time, double dt,
@@ -117,14 +139,16 @@ bool travel(Drop& drop, Way& way, std::vector<Drop>& cut_off, const std::vector<
   while (way.left > 0 && cut_off.empty()) {
     KeptState& kept = drop.workspace().kept;
     kept.keep(drop);
+    set_out(drop, way);
     const double left_before = way.left, inflow = drop.inflow();
     try {
       take_substep(drop, way, solids, time, least_share * dt, options, kept, clock, report);
     } catch (const NumericsError&) {
-      if (!has_no_shape(drop, options.band)) throw;
+      if (!may_be_rounded_off(drop, options.band)) throw;
       ++report.rounded;
       drop.set_target_volume(drop.target_volume() + drop.inflow() * way.left);
       drop = rounded_off(drop, solids, time, way.left, options.band);
+      if (way.velocity) drop.velocities().colwise() = *way.velocity + way.left * options.gravity;
       way.left = 0;
       return true;
     }
@@ -138,6 +162,7 @@ bool travel(Drop& drop, Way& way, std::vector<Drop>& cut_off, const std::vector<
                           is_speck(drop, options.band) && touches_solid(drop);
     if (is_stuck) rest(drop, way, solids, time);
   }
+  arrive(drop, cut_off, way);
   if (cut_off.empty()) report.triangles += drop.mesh().number_of_faces();
   return true;
 }
@@ -149,8 +174,9 @@ struct Traveller {
 };
 
 /// Puts what a drop became on the way, so that the first of it comes first.
-void send_pieces(Drop& drop, std::vector<Drop>& cut_off, const Way& way, double inflow,
-                 const std::vector<Solid>& solids, std::vector<Traveller>& on_the_way) {
+void send_pieces(Drop& drop, std::vector<Drop>& cut_off, Way way, double inflow, const std::vector<Solid>& solids,
+                 std::vector<Traveller>& on_the_way) {
+  way.velocity.reset();  // each has its own
   cut_off.insert(cut_off.begin(), std::move(drop));
   keep_inflow(cut_off, solids, inflow);
   for (auto piece = cut_off.rbegin(); piece != cut_off.rend(); ++piece) on_the_way.push_back({std::move(*piece), way});

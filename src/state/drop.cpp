@@ -70,7 +70,8 @@ Drop::Drop(const Drop& other)
       rest_time_(other.rest_time_),
       inflow_(other.inflow_),
       slack_(other.slack_),
-      id_(other.id_) {
+      id_(other.id_),
+      stuck_substeps_(other.stuck_substeps_) {
   bind();
 }
 

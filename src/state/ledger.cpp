@@ -8,6 +8,8 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace meniscus {
@@ -158,6 +160,18 @@ MeanMotion mean_motion(const Drop& drop) {
   });
   if (!(sums.volume > 0)) return {};
   return {sums.volume, (sums.momentum - sums.flux / sums.volume * sums.first) / sums.volume};
+}
+
+bool calm_torn_piece(Drop& piece) {
+  constexpr double rounding = 1e-9;
+  const Vector3d mean = mean_over_vertices(piece, piece.velocities());
+  double farthest = 0;  // squared
+  for (std::uint32_t v = 0; v < piece.num_rows(); ++v)
+    if (piece.connectivity().degree(v) > 0)
+      farthest = std::max(farthest, (piece.velocities().col(v) - mean).squaredNorm());
+  if ((mean_motion(piece).velocity - mean).norm() <= std::sqrt(farthest) + rounding * mean.norm()) return false;
+  piece.velocities().colwise() = mean;
+  return true;
 }
 
 Ledger& Ledger::operator+=(const Ledger& other) {

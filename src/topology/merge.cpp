@@ -233,6 +233,8 @@ std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, co
   } else {
     pieces.push_back(std::move(united));
   }
+  if (pieces.size() > 1)
+    for (Drop& piece : pieces) calm_torn_piece(piece);
   if (!pieces.empty()) pieces.front().set_inflow(a.inflow() + (&a == &b ? 0 : b.inflow()));
   give_back(pieces, ledger, options);
   return pieces;

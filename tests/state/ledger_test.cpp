@@ -72,6 +72,21 @@ TEST(Ledger, MeanMotionIsItsMomentumByItsVolume) {
   EXPECT_EQ(mean_motion(Drop(make_box({0, 0, 0}, {1, 1, 1}, 1))).velocity, Vector3d::Zero());
 }
 
+TEST(Ledger, APieceThatWasTornOffIsNoFasterThanItsSurface) {
+  // A disc of 1 x 1 x 0.01 whose sides run as +-10 x along z: by its surface a momentum along x of many times that.
+  Drop disc(make_box({0, 0, 0}, {1, 1, 0.01}, 0.2));
+  for (Eigen::Index i = 0; i < disc.velocities().cols(); ++i) {
+    const Vector3d x = disc.positions().col(i);
+    disc.velocities().col(i) = Vector3d(1, 2, (x.z() > 0 ? 10 : -10) * x.x());
+  }
+  ASSERT_GT((mean_motion(disc).velocity - Vector3d(1, 2, 0)).norm(), 100);
+  EXPECT_TRUE(calm_torn_piece(disc));
+  EXPECT_LT((mean_motion(disc).velocity - Vector3d(1, 2, 0)).norm(), 1e-9);
+  const Eigen::Matrix3Xd calm = disc.velocities();
+  EXPECT_FALSE(calm_torn_piece(disc)) << "a rigid motion stays";
+  EXPECT_EQ(Eigen::Matrix3Xd(disc.velocities()), calm);
+}
+
 Ledger wanted_ledger() {
   Ledger ledger;
   ledger.volume = 0.066;

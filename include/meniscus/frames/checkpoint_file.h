@@ -14,7 +14,7 @@
 namespace meniscus {
 
 /// Counts up when a checkpoint holds something else than before; others are refused.
-inline constexpr int checkpoint_format = 3;
+inline constexpr int checkpoint_format = 4;
 
 /// "checkpoint_00000120.bin", after step 120.
 std::string checkpoint_name(std::int64_t step);

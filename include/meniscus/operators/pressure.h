@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace meniscus {
@@ -19,7 +20,10 @@ struct PressureOptions {
   double contact_line_friction = 1;                           ///< xi, g/(cm s): what a contact line that moves meets
   double tolerance = 1e-4;    ///< of the conjugate gradients, relative to the right-hand side
   int max_iterations = 1000;  ///< of the conjugate gradients
-  double smoothing = 0.3;     ///< share of the way along the surface to the ring's centroid, a substep; 0: none
+  /// Of the centre of mass of a drop in flight (cm/s), where it is known better than velocities on the surface tell:
+  /// evening out the mesh and remeshing leave P/V of those a little off, of thin pieces much.
+  std::optional<Eigen::Vector3d> velocity;
+  double smoothing = 0.3;  ///< share of the way along the surface to the ring's centroid, a substep; 0: none
 };
 
 /// What a substep did.
@@ -27,6 +31,7 @@ struct PressureReport {
   int solves = 0;                    ///< linear systems: more than one where the contact line's state changed
   int iterations = 0;                ///< of conjugate gradients, over all of them
   double relative_volume_error = 0;  ///< V/V_target - 1 after it
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< with which a drop in flight goes on, cm/s
 };
 
 /// One substep of the level `pressure` (docs/MODELS.md): every force is the exact gradient of the

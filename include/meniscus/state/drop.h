@@ -118,6 +118,10 @@ class Drop {
   double slack() const { return slack_; }
   void set_slack(double length) { slack_ = length; }
 
+  /// For how many substeps in a row most of its vertices had to be taken back, for they would have met others.
+  int stuck_substeps() const { return stuck_substeps_; }
+  void set_stuck_substeps(int count) { stuck_substeps_ = count; }
+
   /// Shows a checkpoint every number that is not in the mesh; what is added to the class is added here.
   /// What lies in vertex maps goes along by itself; workspace() is empty after a resume.
   template <class Self, class Archive>
@@ -129,6 +133,7 @@ class Drop {
     archive("rest_time", self.rest_time_);
     archive("inflow", self.inflow_);
     archive("slack", self.slack_);
+    archive("stuck_substeps", self.stuck_substeps_);
   }
 
  private:
@@ -151,7 +156,7 @@ class Drop {
   double target_volume_ = 0;
   std::uint64_t topology_version_ = 1, flow_version_ = 0;
   double rest_time_ = 0, inflow_ = 0, slack_ = 0;
-  int id_ = 0;
+  int id_ = 0, stuck_substeps_ = 0;
 };
 
 /// The box of a drop's vertices (cm); empty if it has none.

@@ -48,6 +48,12 @@ struct MeanMotion {
 };
 MeanMotion mean_motion(const Drop& drop);
 
+/// Gives a piece that was just torn off a velocity that it can have. In a flow without vortices the centre of mass is
+/// nowhere faster than the surface (each component of u is harmonic); but the velocities of a thin piece, whose sides
+/// moved each for itself, may tell of a momentum many times that. If P/V is further from the mean of the vertices'
+/// velocities than any of them, all of the piece moves with the mean. Returns whether it did.
+bool calm_torn_piece(Drop& piece);
+
 /// The centre of mass of the enclosed volume (cm); zero if the volume vanishes.
 Eigen::Vector3d volume_centroid(const Drop& drop);
 

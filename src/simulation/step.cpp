@@ -175,16 +175,27 @@ constexpr int most_substeps = 256;
 /// Beyond this relative error of the volume a run has failed.
 constexpr double largest_volume_error = 2;
 
+/// How far a drop's fastest vertex may get within dt, cm.
+double reach_of_step(const Drop& drop, const Vector3d& gravity, double dt) {
+  return (top_speed(drop) + gravity.norm() * dt) * dt;
+}
+
+/// Whether a solid may meet within dt what is in the box and moves by at most `reach` (cm).
+bool may_meet_solid(const Eigen::AlignedBox3d& box, double reach, const std::vector<Solid>& solids, double time,
+                    double dt) {
+  return std::any_of(solids.begin(), solids.end(), [&](const Solid& solid) {
+    return solid.is_near(box, time, reach + solid.velocity(time).norm() * dt);
+  });
+}
+
 /// How many substeps keep a step of this drop within the limits above.
 int num_substeps(const Drop& drop, const std::vector<Solid>& solids, double time, double dt,
                  const StepOptions& options) {
   const Eigen::AlignedBox3d box = bounding_box(drop);
   if (box.isEmpty()) return 1;
   const double length = ball_radius(drop);
-  const double move = (top_speed(drop) + options.gravity.norm() * dt) * dt;
-  const bool near = std::any_of(solids.begin(), solids.end(), [&](const Solid& solid) {
-    return solid.is_near(box, time, move + solid.velocity(time).norm() * dt);
-  });
+  const double move = reach_of_step(drop, options.gravity, dt);
+  const bool near = may_meet_solid(box, move, solids, time, dt);
   double substeps = near ? std::max(1.0, move / (largest_move * length)) : 1;
   if (options.level != Level::paper) {
     const double sqrt_c = std::sqrt(2 * options.liquid.surface_tension / (options.liquid.density * length));
@@ -333,12 +344,7 @@ bool step_by_operators(Drop& drop, std::vector<Drop>& cut_off, const std::vector
 /// Whether no solid can touch a drop within dt.
 bool is_in_flight(const Drop& drop, const std::vector<Solid>& solids, double time, double dt, const Vector3d& gravity) {
   if (touches_solid(drop)) return false;
-  if (solids.empty()) return true;
-  const Eigen::AlignedBox3d box = bounding_box(drop);
-  const double move = (top_speed(drop) + gravity.norm() * dt) * dt;
-  return std::none_of(solids.begin(), solids.end(), [&](const Solid& solid) {
-    return solid.is_near(box, time, move + solid.velocity(time).norm() * dt);
-  });
+  return solids.empty() || !may_meet_solid(bounding_box(drop), reach_of_step(drop, gravity, dt), solids, time, dt);
 }
 
 }  // namespace

@@ -29,18 +29,30 @@ bool ray_crosses(const Point& a, const Point& b, const Point& c, const Point& p)
          int(CGAL::orientation(a, b, c, p)) == -turn;
 }
 
-/// The component of each row, by vertices that triangles join; named by its smallest row.
-std::vector<std::uint32_t> components_of(const BooleanResult& result) {
+Eigen::Vector3d at(const BooleanResult& result, std::uint32_t v) {
+  return Eigen::Vector3d::Map(result.points[v].data());
+}
+
+/// By row: what the row's component encloses, cm^3; negative for a cavity.
+std::vector<double> enclosed_volumes(const BooleanResult& result) {
   IndexSets sets(result.points.size());
   for (const auto& t : result.triangles)
     for (int k = 0; k < 2; ++k) sets.unite(t[k], t[k + 1]);
-  std::vector<std::uint32_t> component(result.points.size());
-  for (std::uint32_t v = 0; v < component.size(); ++v) component[v] = sets.find(v);
-  return component;
+  std::vector<double> volume(result.points.size(), 0);
+  for (const auto& t : result.triangles) {
+    const std::uint32_t c = sets.find(t[0]);
+    const Eigen::Vector3d origin = at(result, c);
+    volume[c] += (at(result, t[0]) - origin).dot((at(result, t[1]) - origin).cross(at(result, t[2]) - origin)) / 6;
+  }
+  for (std::uint32_t v = 0; v < volume.size(); ++v) volume[v] = volume[sets.find(v)];
+  return volume;
 }
 
-Eigen::Vector3d at(const BooleanResult& result, std::uint32_t v) {
-  return Eigen::Vector3d::Map(result.points[v].data());
+/// Drops the other rows, and measures what is left.
+void keep_only(const std::vector<bool>& is_kept, BooleanResult& result) {
+  if (std::find(is_kept.begin(), is_kept.end(), false) == is_kept.end()) return;
+  keep_rows(result, is_kept);
+  result.volume = volume_of(view_of(result));
 }
 
 }  // namespace
@@ -131,22 +143,18 @@ void keep_rows(BooleanResult& result, const std::vector<bool>& is_kept) {
 }
 
 void drop_cavities(BooleanResult& result) {
-  const std::vector<std::uint32_t> component = components_of(result);
-  std::vector<double> six(result.points.size(), 0);
-  for (const auto& t : result.triangles) {
-    const std::uint32_t c = component[t[0]];
-    const Eigen::Vector3d origin = at(result, c);
-    six[c] += (at(result, t[0]) - origin).dot((at(result, t[1]) - origin).cross(at(result, t[2]) - origin));
-  }
-  std::vector<bool> is_kept(result.points.size());
-  bool all = true;
-  for (std::uint32_t v = 0; v < is_kept.size(); ++v) {
-    is_kept[v] = six[component[v]] > 0;
-    all = all && is_kept[v];
-  }
-  if (all) return;
-  keep_rows(result, is_kept);
-  result.volume = volume_of(view_of(result));
+  const std::vector<double> volume = enclosed_volumes(result);
+  std::vector<bool> is_kept;
+  for (const double v : volume) is_kept.push_back(v > 0);
+  keep_only(is_kept, result);
+}
+
+void drop_specks(BooleanResult& result, double least_volume) {
+  const std::vector<double> volume = enclosed_volumes(result);
+  if (volume.empty() || *std::max_element(volume.begin(), volume.end()) < least_volume) return;
+  std::vector<bool> is_kept;
+  for (const double v : volume) is_kept.push_back(std::abs(v) >= least_volume);
+  keep_only(is_kept, result);
 }
 
 MeshData data_of(const BooleanResult& result) {

@@ -43,6 +43,9 @@ void keep_rows(BooleanResult& result, const std::vector<bool>& is_kept);
 /// Drops the components of a result that enclose negative volume.
 void drop_cavities(BooleanResult& result);
 
+/// Drops the components of a result, drops and cavities, that enclose less than `least_volume` (cm^3), unless all do.
+void drop_specks(BooleanResult& result, double least_volume);
+
 /// Whether a point is inside a closed mesh, by a ray; of no meaning on the surface itself.
 bool is_inside(const MeshView& mesh, const Point& point);
 

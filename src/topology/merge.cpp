@@ -2,6 +2,7 @@
 #include "meniscus/topology/merge.h"
 
 #include "attribute_maps.h"
+#include "boolean_parts.h"
 #include "fold_finder.h"
 #include "meniscus/state/contact_line.h"
 #include "meniscus/state/ledger.h"
@@ -210,6 +211,8 @@ void give_back(std::vector<Drop>& pieces, const Ledger& ledger, const MergeOptio
 
 std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, const Ledger& ledger,
                           double target_volume, const MergeOptions& options, Remesher& remesher, MergeReport& report) {
+  const double speck = least_volume(options.remesh.band.edge_min);
+  boolean_parts::drop_specks(result, speck);
   std::vector<std::uint32_t> seam = zip_seams(result, rows_on_solids(a, b, result), options.remesh.band.edge_min);
   for (auto v = static_cast<std::uint32_t>(result.first_seam_row()); v < result.points.size(); ++v) seam.push_back(v);
   Mesh mesh = mesh_of(result);
@@ -227,7 +230,7 @@ std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, co
   std::vector<Drop> pieces;
   if (remeshed.cuts > 0) {
     SplitReport split;
-    pieces = split_components(std::move(united), split, least_volume(options.remesh.band.edge_min));
+    pieces = split_components(std::move(united), split, speck);
     report.cuts += remeshed.cuts;
     report.deleted += split.deleted + split.deleted_empty;
   } else {

@@ -83,7 +83,8 @@ bool take_back_meeting(Drop& drop, const Eigen::Matrix3Xd& before, const Watched
 
 void offset_around(Drop& drop, std::vector<std::uint32_t> held, double volume, const WatchedRegion& region) {
   constexpr int most_rounds = 4;
-  constexpr double enough = 0.25;  // of the error may be left where some vertices had to be taken back
+  // Where some vertices had to be taken back, so much may be left of the error, and of the volume.
+  constexpr double enough = 0.25, most_left = 0.005;
   const double most = 0.5 * std::cbrt(0.75 * volume / M_PI);
   SurfaceGeometry geometry;
   geometry.compute(std::as_const(drop).positions(), drop.connectivity());
@@ -94,7 +95,7 @@ void offset_around(Drop& drop, std::vector<std::uint32_t> held, double volume, c
     const bool is_sound = find_offset(drop, geometry, shares_of_offset(drop, held), before, volume, most) &&
                           take_back_meeting(drop, before, region, held);
     const double error = std::abs(drop.volume() - volume);
-    if (is_sound && (held.size() == count || error <= enough * error_before)) return;
+    if (is_sound && (held.size() == count || error <= std::min(enough * error_before, most_left * volume))) return;
     if (is_sound && round == most_rounds && error < error_before) return;
     drop.positions() = before;
     if (!is_sound) return;

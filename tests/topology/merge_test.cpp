@@ -5,6 +5,7 @@
 #include "meniscus/geometry/shapes.h"
 #include "meniscus/state/ledger.h"
 #include "meniscus/topology/self_union.h"
+#include "meniscus/topology/split.h"
 #include "support/judge.h"
 
 #include <gtest/gtest.h>
@@ -74,6 +75,28 @@ TEST(MergeDrops, OverlapIsTheCommonVolume) {
   MergeReport report;
   ASSERT_TRUE(merge_drops(a, b, options_for(0.08, 0.24), remesher, report).has_value());
   EXPECT_NEAR(report.overlap, 2 * pi * 0.01 * 2.9 / 3, 0.01);
+}
+
+/// A ball, one vertex of it pushed in so that a ball that covers the place shuts the tip of the pit in.
+std::vector<Drop> balls_with_a_pit(double depth) {
+  Drop a = ball({0, 0, 0}, 1, Vector3d::Zero());
+  const Vector3d pole = std::as_const(a).positions().col(0);
+  a.positions().col(0) *= 1 - depth;
+  MergeOptions options = options_for(0.08, 0.24);
+  options.keep_air = true;
+  Remesher remesher;
+  MergeReport report;
+  return *merge_drops(a, ball(1.8 * pole, 1, Vector3d::Zero()), options, remesher, report);
+}
+
+TEST(MergeDrops, AirIsKeptUnlessItIsSmallerThanTheMeshHolds) {
+  // What lies deeper than the 0.2 to which the other ball reaches is a cone of that height: 0.3 and 0.05 here.
+  for (const auto& [depth, components] : {std::pair(0.5, 2u), std::pair(0.25, 1u)}) {
+    const std::vector<Drop> united = balls_with_a_pit(depth);
+    ASSERT_EQ(united.size(), 1u);
+    EXPECT_EQ(judge::defect(united.front()), "");
+    EXPECT_EQ(connected_components(united.front().mesh()).size(), components) << "depth " << depth;
+  }
 }
 
 TEST(MergeDrops, ApartIsNotMerged) {

@@ -18,14 +18,13 @@ const shots = [
   { name: "spreading", scene: "spreading", frames: 240, look: "frame=120&elevation=20", text: "a highly hydrophilic plate (Fig 7)" },
   { name: "tension_low", scene: "tension_low", frames: 240, look: "frame=200&elevation=6", text: "low tension (Fig 8)" },
   { name: "tension_high", scene: "tension_high", frames: 240, look: "frame=200&elevation=6", text: "high tension (Fig 8)" },
-  // Zoom is beside the box of all frames, and here drops fall far: the look belongs to the number of frames.
-  { name: "tap_low", scene: "tap_low", frames: 96, look: "frame=32&elevation=0&target=0,0,-4&zoom=10", text: "a tap, tension 8 (Fig 9)" },
-  { name: "tap_middle", scene: "tap_middle", frames: 96, look: "frame=32&elevation=0&target=0,0,-4&zoom=10", text: "tension 30 (Fig 9)" },
-  { name: "tap_high", scene: "tap_high", frames: 96, look: "frame=32&elevation=0&target=0,0,-4&zoom=10", text: "tension 72 (Fig 9)" },
-  { name: "pane", scene: "pane", frames: 150, look: "frame=40&azimuth=150&elevation=10&target=0,0,-1&zoom=20", text: "a window pane: small drops stick, large ones run (Fig 10)" },
-  { name: "pane_button", scene: "pane", frames: 150, look: "frame=130&azimuth=150&elevation=10&target=0,0,2&zoom=18", text: "and a button is drawn over it (Fig 10)" },
-  { name: "bird", scene: "bird", frames: 120, look: "frame=40&elevation=0&azimuth=50&target=0,0,0&zoom=70", text: "drops run down a bird and hang from it (Fig 11)" },
-  { name: "lotus", scene: "lotus", frames: 140, look: "frame=70&elevation=25&target=0.4,-0.5,0.3&zoom=75", text: "drops on lotus leaves (Fig 12)" },
+  { name: "tap_low", scene: "tap_low", frames: 96, look: "frame=32&elevation=0&target=0,0,-4&zoom=0.1", text: "a tap, tension 8 (Fig 9)" },
+  { name: "tap_middle", scene: "tap_middle", frames: 96, look: "frame=32&elevation=0&target=0,0,-4&zoom=0.1", text: "tension 30 (Fig 9)" },
+  { name: "tap_high", scene: "tap_high", frames: 96, look: "frame=32&elevation=0&target=0,0,-4&zoom=0.1", text: "tension 72 (Fig 9)" },
+  { name: "pane", scene: "pane", frames: 150, look: "frame=40&azimuth=150&elevation=10&target=0,0,-1&zoom=3.2", text: "a window pane: small drops stick, large ones run (Fig 10)" },
+  { name: "pane_button", scene: "pane", frames: 150, look: "frame=130&azimuth=150&elevation=10&target=0,0,2&zoom=2.9", text: "and a button is drawn over it (Fig 10)" },
+  { name: "bird", scene: "bird", frames: 120, look: "frame=40&elevation=0&azimuth=50&target=0,0,0&zoom=1.7", text: "drops run down a bird and hang from it (Fig 11)" },
+  { name: "lotus", scene: "lotus", frames: 140, look: "frame=70&elevation=25&target=0.4,-0.5,0.3&zoom=2.1", text: "drops on lotus leaves (Fig 12)" },
 ];
 const columns = 3, sheet = "docs/gallery/sheet.png";
 

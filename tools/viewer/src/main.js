@@ -3,7 +3,7 @@ import { Frames } from "./frames.js";
 import { Liquid } from "./liquid.js";
 import { Blocks, PageError, readScene } from "./page_data.js";
 import { Player } from "./player.js";
-import { makeSolids, makeSources } from "./solids.js";
+import { makeBodies, makePlanes, makeSources } from "./solids.js";
 import { Stage } from "./stage.js";
 
 const $ = (id) => document.getElementById(id);
@@ -31,6 +31,19 @@ function usualRate(seconds) {
   return { rates, rate: rates.find((rate) => seconds / rate >= 3) ?? rates.at(-1) };
 }
 
+const boxOf = ({ min, max }) => new THREE.Box3(new THREE.Vector3(...min), new THREE.Vector3(...max));
+
+/** What is seen at first: all frames, but of liquid that falls far from bodies and sources only what is within half of their size. */
+function homeOf(scene, bodies) {
+  const all = boxOf(scene.bounds), near = new THREE.Box3();
+  for (const { object } of bodies) near.expandByObject(object);
+  if (near.isEmpty()) return all;
+  const { vertices, min, step } = scene.frames[0];
+  if (vertices > 0) near.union(boxOf({ min, max: min.map((low, axis) => low + 65535 * step[axis]) }));
+  const home = near.expandByScalar(near.getSize(new THREE.Vector3()).length() / 2).intersect(all);
+  return home.isEmpty() ? all : home;
+}
+
 async function open() {
   const scene = readScene();
   const opening = openingOf(location.hash);
@@ -38,12 +51,13 @@ async function open() {
   const frames = new Frames(scene, blocks);
   const first = Math.min(Math.max(Math.round(opening.frame), 0), scene.frames.length - 1);
   await frames.get(first);  // damage shows before the light is made, which takes seconds without a graphics card
-  const box = new THREE.Box3(new THREE.Vector3(...scene.bounds.min), new THREE.Vector3(...scene.bounds.max));
+  const bodies = [...await makeBodies(scene, blocks), ...makeSources(scene)];
+  const box = homeOf(scene, bodies);
   const center = box.getCenter(new THREE.Vector3()), radius = Math.max(box.getSize(new THREE.Vector3()).length() / 2, 1e-6);
   const normals = scene.solids.filter((solid) => solid.shape === "plane").map((solid) => new THREE.Vector3(...solid.normal).normalize());
   const stage = new Stage($("view"), center, radius, normals);
   const liquid = new Liquid(scene);
-  const solids = [...await makeSolids(scene, blocks, center, radius), ...makeSources(scene)];
+  const solids = [...makePlanes(scene, center, radius), ...bodies];
   stage.add(liquid.object, liquid.materials);
   for (const { object } of solids) stage.add(object, [object.material]);
 

@@ -6,15 +6,24 @@ import { backdrop } from "./studio.js";
 const unitZ = new THREE.Vector3(0, 0, 1);
 const vector = (xyz) => new THREE.Vector3(...xyz);
 
-/** Solids as meshes that know where they are at a time. */
-export async function makeSolids(scene, blocks, center, radius) {
-  return Promise.all(scene.solids.map(async (solid) => {
-    const object = solid.shape === "plane" ? makePlane(solid, center, radius) : await makeBody(solid, blocks);
-    object.receiveShadow = true;
-    object.castShadow = solid.shape !== "plane";
-    const rest = object.position.clone();
-    return { object, move: (time) => object.position.copy(rest).add(offset(solid, time)) };
-  }));
+/** A mesh that knows where it is at a time. */
+function moving(solid, object) {
+  object.receiveShadow = true;
+  object.castShadow = solid.shape !== "plane";
+  const rest = object.position.clone();
+  return { object, move: (time) => object.position.copy(rest).add(offset(solid, time)) };
+}
+
+/** The solids that end somewhere. */
+export async function makeBodies(scene, blocks) {
+  const bodies = scene.solids.filter(({ shape }) => shape !== "plane");
+  return Promise.all(bodies.map(async (solid) => moving(solid, await makeBody(solid, blocks))));
+}
+
+/** The planes, where they are seen around a sphere (cm). */
+export function makePlanes(scene, center, radius) {
+  const planes = scene.solids.filter(({ shape }) => shape === "plane");
+  return planes.map((solid) => moving(solid, makePlane(solid, center, radius)));
 }
 
 /** Taps: a short pipe behind each source, as wide as the stream. */

@@ -173,6 +173,19 @@ test("a solid that moves is elsewhere later", async () => {
   await close(tab);
 });
 
+test("a drop that falls far leaves the view where the solid is", async () => {
+  writeFileSync(inside("fall.json"), JSON.stringify({
+    time_step: 0.001, frames: 1, steps_per_frame: 1, mesh: { edge_min: 0.03, edge_max: 0.09 }, gravity: [0, 0, 0],
+    solids: [{ shape: "box", center: [0, 0, 0], size: [1, 1, 1] }],
+    drops: [{ shape: "sphere", center: [1, 0, 0], radius: 0.2, velocity: [0, 0, -300000] }],
+  }));
+  meniscus("evolve", inside("fall.json"), "-o", inside("fall"), "-q");
+  meniscus("view", inside("fall"), "--html", inside("fall.html"), "-q");
+  const tab = await open(inside("fall.html"), "bare");
+  assert.ok((await statistics(await picture(tab))).deviation > 10, "box and drop are large");
+  await close(tab);
+});
+
 test("meshes are frames of their own, with their names", async () => {
   for (const frame of ["0000", "0020"]) meniscus("convert", inside(`run/frame_${frame}.ply`), inside(`m${frame}.off`));
   writeFileSync(inside("none.off"), "OFF\n0 0 0\n");

@@ -92,7 +92,7 @@ struct SourceSpec {
 struct Topology {
   bool merge = true;        ///< drops that touch become one
   bool self_merge = false;  ///< a drop that touches itself fuses there; else only beside a fresh seam
-  bool keep_air = false;    ///< air that merging shuts in stays as a bubble; else it is filled
+  bool keep_air = false;    ///< air that merging shuts in stays as a bubble if the mesh can hold it; else it is filled
   bool split = true;        ///< necks pinch off
 };
 

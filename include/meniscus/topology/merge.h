@@ -12,7 +12,7 @@ namespace meniscus {
 
 struct MergeOptions {
   RemeshOptions remesh;     ///< of the seam; all other edges are in the band
-  bool keep_air = false;    ///< air that the liquid shuts in stays as a cavity; else it is filled
+  bool keep_air = false;    ///< air that the liquid shuts in stays as a cavity, from least_volume on; else it is filled
   bool self_merge = false;  ///< drops that fold onto themselves fuse there; else only next to a fresh seam
 };
 

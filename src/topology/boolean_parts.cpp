@@ -144,16 +144,16 @@ void keep_rows(BooleanResult& result, const std::vector<bool>& is_kept) {
 
 void drop_cavities(BooleanResult& result) {
   const std::vector<double> volume = enclosed_volumes(result);
-  std::vector<bool> is_kept;
-  for (const double v : volume) is_kept.push_back(v > 0);
+  std::vector<bool> is_kept(volume.size());
+  std::transform(volume.begin(), volume.end(), is_kept.begin(), [](double v) { return v > 0; });
   keep_only(is_kept, result);
 }
 
 void drop_specks(BooleanResult& result, double least_volume) {
   const std::vector<double> volume = enclosed_volumes(result);
   if (volume.empty() || *std::max_element(volume.begin(), volume.end()) < least_volume) return;
-  std::vector<bool> is_kept;
-  for (const double v : volume) is_kept.push_back(std::abs(v) >= least_volume);
+  std::vector<bool> is_kept(volume.size());
+  std::transform(volume.begin(), volume.end(), is_kept.begin(), [&](double v) { return std::abs(v) >= least_volume; });
   keep_only(is_kept, result);
 }
 

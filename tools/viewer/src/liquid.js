@@ -1,5 +1,6 @@
 import * as THREE from "three";
 import { Colors } from "./colors.js";
+import { boxOfLiquid } from "./home.js";
 import { addNormals, curvature, splitWetted } from "./measure.js";
 import { sunDirection } from "./studio.js";
 
@@ -13,8 +14,7 @@ export class Liquid {
     for (const name of ["position", "normal", "color"])
       this.geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(3 * vertices), 3).setUsage(THREE.DynamicDrawUsage));
     this.geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(3 * triangles), 1).setUsage(THREE.DynamicDrawUsage));
-    const { min, max } = scene.bounds;
-    this.geometry.boundingSphere = new THREE.Box3(new THREE.Vector3(...min), new THREE.Vector3(...max)).getBoundingSphere(new THREE.Sphere());
+    this.geometry.boundingSphere = boxOfLiquid(scene).getBoundingSphere(new THREE.Sphere());
     this.water = waterMaterial(scene.drop_radius);
     this.plain = new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.45, envMapIntensity: 0.8 });
     this.wetted = new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.6, flatShading: true, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 });

@@ -1,5 +1,6 @@
 import * as THREE from "three";
 import { Frames } from "./frames.js";
+import { homeOf } from "./home.js";
 import { Liquid } from "./liquid.js";
 import { Blocks, PageError, readScene } from "./page_data.js";
 import { Player } from "./player.js";
@@ -29,19 +30,6 @@ function fail(error) {
 function usualRate(seconds) {
   const rates = [1, 0.5, 0.25, 0.1, 0.05, 0.02, 0.01];
   return { rates, rate: rates.find((rate) => seconds / rate >= 3) ?? rates.at(-1) };
-}
-
-const boxOf = ({ min, max }) => new THREE.Box3(new THREE.Vector3(...min), new THREE.Vector3(...max));
-
-/** What is seen at first: all frames, but of liquid that falls far from bodies and sources only what is within half of their size. */
-function homeOf(scene, bodies) {
-  const all = boxOf(scene.bounds), near = new THREE.Box3();
-  for (const { object } of bodies) near.expandByObject(object);
-  if (near.isEmpty()) return all;
-  const { vertices, min, step } = scene.frames[0];
-  if (vertices > 0) near.union(boxOf({ min, max: min.map((low, axis) => low + 65535 * step[axis]) }));
-  const home = near.expandByScalar(near.getSize(new THREE.Vector3()).length() / 2).intersect(all);
-  return home.isEmpty() ? all : home;
 }
 
 async function open() {

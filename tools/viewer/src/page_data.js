@@ -45,6 +45,9 @@ export class Blocks {
   }
 }
 
+/** The box of a packed surface: positions are 16-bit numbers of steps from `min`. */
+export const boundsOf = ({ min, step }) => ({ min, max: min.map((low, axis) => low + 65535 * step[axis]) });
+
 /** Reads numbers of 7 bits a byte, lowest first, with the sign in the lowest bit. */
 class Varints {
   constructor(bytes, at = 0) {

@@ -202,6 +202,7 @@ std::vector<int> volume_signs(const MeshData& data, const SoupTopology& topology
     sum.size += std::abs(volume);
   });
   std::vector<int> signs;
+  signs.reserve(sums.size());
   for (const auto& sum : sums) signs.push_back(std::abs(sum.volume) <= 1e-13 * sum.size ? 0 : sum.volume > 0 ? 1 : -1);
   return signs;
 }

@@ -59,6 +59,7 @@ std::vector<std::uint32_t> candidates(const MeshData& data) {
   keys.erase(std::unique(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
              keys.end());
   std::vector<std::uint32_t> result;
+  result.reserve(keys.size());
   for (const auto& [key, t] : keys) result.push_back(t);
   std::sort(result.begin(), result.end());
   return result;
@@ -89,6 +90,7 @@ void for_each_pair_of_boxes(const std::vector<Eigen::AlignedBox3d>& boxes,
                        static_cast<std::uint32_t>(infos.size()));
   }
   std::vector<const Box*> pointers;
+  pointers.reserve(infos.size());
   for (const auto& box : infos) pointers.push_back(&box);
   try {
     CGAL::box_self_intersection_d(

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace meniscus {
 namespace {
@@ -65,7 +64,7 @@ struct SharpTurn {
 Vector3d straightening_move(const Drop& drop, const SharpTurn& turn, const std::vector<std::uint32_t>& line) {
   constexpr int most_halvings = 4;
   const ConstColumns x = drop.positions();
-  const auto [v, first, second] = std::tuple(turn.vertex, turn.neighbours[0], turn.neighbours[1]);
+  const std::uint32_t v = turn.vertex, first = turn.neighbours[0], second = turn.neighbours[1];
   const Vector3d p = x.col(v), a = x.col(first), b = x.col(second), n = drop.contact_normals().col(v);
   Vector3d move = constrain_to_solid(drop, v, 0.5 * (0.5 * (a + b) - p));
   const auto passes_over = [&](std::uint32_t w) {

@@ -40,7 +40,7 @@ double tension_over_mass(const PressureSurface& surface, const Liquid& liquid) {
 }
 
 void resize_for_solve(std::size_t n, PressureArrays& arrays) {
-  for (auto* array : {&arrays.speed, &arrays.rhs_without_line, &arrays.rhs, &arrays.friction, &arrays.diagonal,
+  for (auto* array : {&arrays.speed, &arrays.rhs_without_line, &arrays.rhs, &arrays.friction, &arrays.inverse_diagonal,
                       &arrays.residual, &arrays.preconditioned, &arrays.search, &arrays.product, &arrays.deformation})
     array->resize(n);
   arrays.fixed.resize(n);
@@ -109,7 +109,7 @@ bool PressureStep::solve(double dt) {
   }
   mass.stiffening += damping;
   if (surface.in_contact) mass.friction = &arrays.friction;
-  mass.diagonal(arrays.diagonal);
+  mass.inverse_diagonal(arrays.inverse_diagonal);
 
   const double shortest = c > 0 ? shortest_volume_phase * surface_length(surface) / (2 * std::sqrt(c)) : 0;
   const double missing = drop_.target_volume() - surface.volume;

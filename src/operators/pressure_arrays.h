@@ -51,7 +51,7 @@ struct PressureSurface {
 
 struct PressureArrays {
   PressureSurface surface;
-  std::vector<double> speed_old, speed, rhs_without_line, rhs, friction, diagonal;
+  std::vector<double> speed_old, speed, rhs_without_line, rhs, friction, inverse_diagonal;
   std::vector<double> residual, preconditioned, search, product, deformation;
   std::vector<std::uint8_t> fixed, blocked, status_before;
   std::vector<Eigen::Vector3d> shift;  ///< ends of a move; then by how much even_out moved each vertex, cm
@@ -87,7 +87,11 @@ struct PressureMass {
   Eigen::Vector3d translation(const std::vector<double>& q) const;
   /// y = M q; `deformation` is scratch.
   void multiply(const std::vector<double>& q, std::vector<double>& y, std::vector<double>& deformation) const;
-  void diagonal(std::vector<double>& d) const;
+  /// The same where U = translation(q) is known.
+  void multiply(const std::vector<double>& q, const Eigen::Vector3d& U, std::vector<double>& y,
+                std::vector<double>& deformation) const;
+  /// Of the diagonal; 1 for rows that take no part.
+  void inverse_diagonal(std::vector<double>& inverse) const;
 };
 
 struct ConstrainedSolve {

@@ -101,14 +101,22 @@ bool is_free(const Drop& drop, const PressureSurface& surface, std::uint32_t v) 
 /// The most that a substep offsets the surface, as a share of edge_min.
 constexpr double most_offset = 0.05;
 
+/// What a move of the free surface along its normals does to the volume, and the volume.
+struct Enclosed {
+  double free_area = 0;  ///< cm^2
+  double volume = 0;     ///< cm^3
+
+  Enclosed& operator+=(const Enclosed& other) {
+    free_area += other.free_area;
+    volume += other.volume;
+    return *this;
+  }
+};
+
 /// What the free surface must be offset by for the volume (cm), within bounds.
-double volume_offset(const Drop& drop, double edge_min, const PressureSurface& surface) {
-  const SurfaceGeometry& geometry = drop.workspace().geometry;
-  double area = 0;
-  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
-    if (is_free(drop, surface, v)) area += geometry.area_vector(v).norm() / 3;
-  const double missing = drop.target_volume() - drop.volume(), most = most_offset * edge_min;
-  return area > 0 ? std::clamp(missing / area, -most, most) : 0;
+double volume_offset(const Drop& drop, double edge_min, const Enclosed& now) {
+  const double most = most_offset * edge_min;
+  return now.free_area > 0 ? std::clamp((drop.target_volume() - now.volume) / now.free_area, -most, most) : 0;
 }
 
 }  // namespace
@@ -123,10 +131,14 @@ void even_out(Drop& drop, const PressureOptions& options, PressureArrays& arrays
   std::vector<Vector3d>& shift = arrays.shift;
   shift.assign(n, Vector3d::Zero());
   carried = arrays.deformation;
-  for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
+  const Enclosed enclosed = sum_over_chunks(n, Enclosed{}, [&](std::size_t begin, std::size_t end) {
+    Enclosed part;
     for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
       const Around around = look_around(drop, v);
       geometry.set_area_vector(v, around.area_vector);
+      if (is_free(drop, surface, v)) part.free_area += around.area_vector.dot(geometry.normal(v)) / 3;
+      // A third of the area vector is the gradient of the volume, which is of degree three.
+      part.volume += around.area_vector.dot(drop.positions().col(v) - surface.center) / 9;
       if (drop.connectivity().degree(v) <= 3) continue;  // a corner of a tetrahedron has no tangent plane
       const Role role = surface.role[v];
       if (role == Role::line) {
@@ -138,8 +150,9 @@ void even_out(Drop& drop, const PressureOptions& options, PressureArrays& arrays
       if (is_moving(role) && shift[v].squaredNorm() > small * small)
         carried[v] += shift[v].dot(surface_gradient(drop, surface.wet_face, arrays.deformation, v));
     }
+    return part;
   });
-  const double offset = volume_offset(drop, options.edge_min, surface);
+  const double offset = volume_offset(drop, options.edge_min, enclosed);
   Columns x = drop.positions();
   for_each_chunk(n, [&](std::size_t begin, std::size_t end) {
     for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {

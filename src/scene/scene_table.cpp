@@ -11,7 +11,7 @@
 
 // Reads or writes a member, whether its owner is const or not.
 #define MENISCUS_FIELD(member) \
-  [](auto& owner) -> auto& { return owner.member; }
+  ([](auto& owner) -> auto& { return owner.member; })
 
 namespace meniscus::scene_detail {
 namespace {

@@ -171,6 +171,7 @@ bool Simulation::step_one(Drop& drop, std::vector<Drop>& cut_off, double time, d
 
 std::vector<Drop> Simulation::step_cluster(const std::vector<std::uint32_t>& cluster, StepReport& report) {
   std::vector<Drop> drops;
+  drops.reserve(cluster.size());
   for (const std::uint32_t d : cluster) drops.push_back(std::move(drops_[d]));
   BroadPhase broad_phase;
   const double shortest = substep_length() / most_parts;

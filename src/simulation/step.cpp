@@ -224,6 +224,16 @@ void restore_means(Drop& speck, const Means& means) {
   speck.velocities().colwise() += means.velocity - now.velocity;
 }
 
+/// All of a ball's surface energy would move its liquid at sqrt(6 sigma/(rho R)). A speck of which a vertex is so many
+/// times as fast is no drop that oscillates: its few faces drive themselves, and it keeps its mean motion alone.
+constexpr double most_speck_speed = 4;
+
+void calm_speck(Drop& speck, const Vector3d& mean, const Liquid& liquid) {
+  const double energy_speed = std::sqrt(6 * liquid.surface_tension / (liquid.density * ball_radius(speck)));
+  if (liquid.surface_tension > 0 && top_speed(speck, mean) > most_speck_speed * energy_speed)
+    speck.velocities().colwise() = mean;
+}
+
 /// The operators of one substep, in the order of the paper's Figure 1. Returns by what share of the target the volume
 /// was off before its correction.
 double deform(Drop& drop, const std::vector<Solid>& solids, double time, double dt, const StepOptions& options,
@@ -268,7 +278,10 @@ double deform(Drop& drop, const std::vector<Solid>& solids, double time, double 
   // What lifting films adds is taken from elsewhere, and what sank in by that is lifted for good.
   if (forces.colliding > 0) lift_films(drop, solids, time, low_film * options.band.edge_min);
   const VolumeCorrectionReport volume = correct_volume(drop, geometry, dt, volume_options(options, drop));
-  if (in_flight) restore_means(drop, *in_flight);
+  if (in_flight) {
+    restore_means(drop, *in_flight);
+    calm_speck(drop, in_flight->velocity, options.liquid);
+  }
   report.limited_volume += volume.limited;
   if (!std::isnan(volume.relative_error))
     report.worst_volume_error = std::max(report.worst_volume_error, std::abs(volume.relative_error));

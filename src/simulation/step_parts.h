@@ -29,15 +29,6 @@ class StageClock {
 /// The radius of the ball of the drop's volume (cm).
 inline double ball_radius(const Drop& drop) { return std::cbrt(drop.target_volume() * 0.75 / 3.14159265358979323846); }
 
-/// The fastest vertex of a drop, seen from a frame that moves with `frame` (cm/s).
-inline double top_speed(const Drop& drop, const Eigen::Vector3d& frame = Eigen::Vector3d::Zero()) {
-  const ConstColumns v = drop.velocities();
-  double squared = 0;
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-    if (drop.connectivity().degree(i) > 0) squared = std::max(squared, (v.col(i) - frame).squaredNorm());
-  return std::sqrt(squared);
-}
-
 /// Puts the first of the pieces in the drop's place and the others behind `cut_off`. Returns whether there was one.
 bool replace_by_pieces(Drop& drop, std::vector<Drop>& cut_off, std::vector<Drop> pieces);
 

@@ -142,6 +142,14 @@ Eigen::Vector3d mean_over_vertices(const Drop& drop, const ConstColumns& columns
   return count > 0 ? Eigen::Vector3d(sum / static_cast<double>(count)) : sum;
 }
 
+double top_speed(const Drop& drop, const Eigen::Vector3d& frame) {
+  const ConstColumns u = drop.velocities();
+  double squared = 0;
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+    if (drop.connectivity().degree(i) > 0) squared = std::max(squared, (u.col(i) - frame).squaredNorm());
+  return std::sqrt(squared);
+}
+
 bool hangs_from(const Drop& drop, std::int32_t solid) {
   for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
     if (is_colliding(drop.contact()[i]) && drop.contact_solid()[i] == solid && drop.connectivity().degree(i) > 0)

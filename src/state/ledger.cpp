@@ -109,6 +109,9 @@ void fit_momentum(Drop& drop, const SurfaceGeometry& geometry, const Vector3d& c
   }
 }
 
+/// What restore_ledger adds leaves no vertex faster, about the mean motion, than this many times the fastest before.
+constexpr double most_restored = 2;
+
 /// What mean_motion sums over faces, four at a time, times 6, 6, 24 and 24: enclosed volume, flux of the velocity,
 /// first moment of the volume, and momentum about the origin.
 struct FourMotions {
@@ -165,11 +168,7 @@ MeanMotion mean_motion(const Drop& drop) {
 bool calm_torn_piece(Drop& piece) {
   constexpr double rounding = 1e-9;
   const Vector3d mean = mean_over_vertices(piece, piece.velocities());
-  double farthest = 0;  // squared
-  for (std::uint32_t v = 0; v < piece.num_rows(); ++v)
-    if (piece.connectivity().degree(v) > 0)
-      farthest = std::max(farthest, (piece.velocities().col(v) - mean).squaredNorm());
-  if ((mean_motion(piece).velocity - mean).norm() <= std::sqrt(farthest) + rounding * mean.norm()) return false;
+  if ((mean_motion(piece).velocity - mean).norm() <= top_speed(piece, mean) + rounding * mean.norm()) return false;
   piece.velocities().colwise() = mean;
   return true;
 }
@@ -210,12 +209,21 @@ void restore_ledger(Drop& drop, const Ledger& ledger, bool with_volume) {
   const Vector3d shift = ledger.center() - moments.center;
   drop.positions().colwise() += shift;
   moments.center += shift;
-  fit_momentum(drop, geometry, moments.center, ledger.momentum);
-  const Vector3d spin = ledger.angular_momentum - moments.center.cross(ledger.momentum);
+  const Vector3d mean = ledger.momentum / ledger.volume, momentum = moments.volume * mean;
+  const double fastest = most_restored * top_speed(drop, mean);
+  Eigen::Matrix3Xd before = drop.velocities();
+  fit_momentum(drop, geometry, moments.center, momentum);
+  if (top_speed(drop, mean) > fastest) {
+    drop.velocities() = before;
+    return;
+  }
+  before = drop.velocities();
+  const Vector3d spin = moments.volume / ledger.volume * ledger.angular_momentum - moments.center.cross(momentum);
   const Vector3d turn = moments.inertia.ldlt().solve(spin) - fitted_rotation(drop, geometry);
   if (!turn.allFinite()) return;
   for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
     drop.velocities().col(i) += turn.cross(Vector3d(drop.positions().col(i) - moments.center));
+  if (top_speed(drop, mean) > fastest) drop.velocities() = before;
 }
 
 void restore_ledger(std::vector<Drop>& pieces, const Ledger& ledger, bool with_volume) {

@@ -194,17 +194,20 @@ void calm_seam(Drop& drop, const std::vector<std::uint32_t>& seam) {
   }
 }
 
-/// restore_ledger; without the volume where giving it back makes a surface meet itself beside the seam.
+/// restore_ledger; without the volume where giving it back makes a surface meet itself beside the seam. Sheets that lie
+/// on each other but for rounding do not even bear to be moved as they are: then it gives back momentum alone.
 void give_back(std::vector<Drop>& pieces, const Ledger& ledger, const MergeOptions& options) {
   const std::vector<Drop> start = pieces;
-  restore_ledger(pieces, ledger);
   const auto meets_itself = [&](const Drop& piece) {
     const WatchedRegion region = guarded_region(piece, options.remesh.band.edge_max);
     return !region.empty() && meet_each_other(piece, region.faces_of(piece));
   };
-  if (std::none_of(pieces.begin(), pieces.end(), meets_itself)) return;
-  pieces = start;
-  restore_ledger(pieces, ledger, false);
+  for (const bool with_volume : {true, false}) {
+    restore_ledger(pieces, ledger, with_volume);
+    if (std::none_of(pieces.begin(), pieces.end(), meets_itself)) return;
+    if (with_volume) pieces = start;
+  }
+  for (std::size_t k = 0; k < pieces.size(); ++k) pieces[k].positions() = start[k].positions();
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ INSTANTIATE_TEST_SUITE_P(Regressions, FailedScenes,
                                          "volume_after_remeshing", "stream_hits_drop", "source_dries", "disc_thins",
                                          "sheets_touch_on_moving_plane", "fed_piece_loses_speck",
                                          "jet_evens_out_through_disc", "solid_bulges_into_film",
-                                         "union_shuts_in_a_speck", "curtain_in_tatters"),
+                                         "union_shuts_in_a_speck", "curtain_in_tatters", "knot_is_hurried",
+                                         "sheets_do_not_bear_a_shift"),
                          [](const auto& scene) { return scene.param; });
 
 /// Parts of a contact line that meet become one: then nothing crosses any more, and nothing has to be taken back.

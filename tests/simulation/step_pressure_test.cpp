@@ -54,13 +54,6 @@ void run(Simulation& simulation, double time) {
   while (simulation.time() < time - 1e-9) simulation.step();
 }
 
-double top_speed(const Drop& drop) {
-  double speed = 0;
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-    if (drop.connectivity().degree(i) > 0) speed = std::max(speed, drop.velocities().col(i).norm());
-  return speed;
-}
-
 double height(const Drop& drop) {
   double top = 0;
   for (std::uint32_t i = 0; i < drop.num_rows(); ++i)

@@ -7,6 +7,7 @@
 #include "meniscus/simulation/oscillation.h"
 #include "meniscus/simulation/simulation.h"
 #include "meniscus/state/contact_line.h"
+#include "meniscus/state/ledger.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -94,14 +95,6 @@ TEST(Step, AWholeStepInFreeFallIsFreeFall) {
   }
 }
 
-/// The fastest vertex (cm/s).
-double top_speed(const Drop& drop) {
-  double speed = 0;
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-    if (drop.connectivity().degree(i) > 0) speed = std::max(speed, drop.velocities().col(i).norm());
-  return speed;
-}
-
 TEST(Step, ASpeckDoesNotDriveItself) {
   // Five vertices, one far out: the normals that the volume is given back along do not add up to nothing.
   Mesh mesh;
@@ -117,6 +110,23 @@ TEST(Step, ASpeckDoesNotDriveItself) {
   StepReport report;
   for (int k = 1; k <= 200; ++k) drop = step(std::move(drop), k * 1e-3, 1e-3, options, report);
   EXPECT_LT(bounding_box(drop).center().norm(), 0.02) << "cm, in 0.2 s; it was 1.26";
+}
+
+/// No energy of a speck's surface moves its vertices that fast: it goes on with their mean.
+TEST(Step, ASpeckWhoseVerticesRushKeepsItsMeanMotion) {
+  StepOptions options = free_drop_options();
+  options.band = {0.02, 0.06, 0.5};
+  const double energy_speed = std::sqrt(6 * 72 / 0.01);  // cm/s, of R = 0.01 cm
+  for (const double share : {0.5, 200.0}) {
+    Drop drop(make_icosphere({0, 0, 0}, 0.01, 2));
+    drop.velocities().colwise() = Vector3d(5, 0, 0);
+    drop.velocities().col(0) += share * energy_speed * Vector3d::UnitZ();
+    const Vector3d motion = mean_motion(drop).velocity;
+    StepReport report;
+    drop = step(std::move(drop), 1e-8, 1e-8, options, report);
+    EXPECT_LT((mean_motion(drop).velocity - motion).norm(), 1e-9) << share;
+    EXPECT_EQ(top_speed(drop, motion) > 1, share < 1) << share << ": " << top_speed(drop, motion) << " cm/s";
+  }
 }
 
 /// Faces are looked at again once vertices have moved by a thousandth of edge_min since a look found nothing.

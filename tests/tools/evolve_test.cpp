@@ -117,7 +117,7 @@ TEST_F(Evolve, VolumeThatGoesAmissIsSaidOnce) {
 /// Whatever ends the run. (What the judge of frames says is tested in check_frame_test.)
 TEST_F(Evolve, OutsideOfTheSafeRegionNoUnsoundFrameIsWritten) {
   const Outcome outcome =
-      tool("evolve '" MENISCUS_DATA_DIR "/regressions/paper_meets_itself.json' -o out --set time_step=0.3");
+      tool("evolve '" MENISCUS_DATA_DIR "/regressions/paper_meets_itself.json' -o out --set time_step=0.5");
   EXPECT_EQ(outcome.code, 5);
   EXPECT_TRUE(has(outcome.err, "outside of the region")) << outcome.err;
   EXPECT_EQ(report("out/run.json")["status"], "failed");

@@ -168,6 +168,9 @@ bool touches_solid(const Drop& drop);
 /// The mean of the columns (3 x rows) of the vertices that are there, each counted once; zero if there are none.
 Eigen::Vector3d mean_over_vertices(const Drop& drop, const ConstColumns& columns);
 
+/// The speed of the fastest vertex, seen from a frame that moves with `frame` (cm/s); 0 without vertices.
+double top_speed(const Drop& drop, const Eigen::Vector3d& frame = Eigen::Vector3d::Zero());
+
 /// Whether some vertex touches solid s.
 bool hangs_from(const Drop& drop, std::int32_t solid);
 

@@ -32,8 +32,10 @@ Ledger measure_ledger(const Drop& drop);
 /// For a drop on a solid 1 is all: the solid holds it and takes its momentum (a flat puddle has hardly a motion
 /// without flux that carries any, and would be torn to have it). Exact to rounding, but for the
 /// volume (secants, 1e-12). Where nothing is free to move, or the volume is not positive, it does nothing.
+/// Where 3, or 4, would leave a vertex more than twice as fast about the mean motion as the fastest was before (a knot
+/// of a few faces hardly has a motion that carries P and L), velocities stay as they were before it.
 /// Writes positions and velocities; the target volume stays. Without `with_volume`, 1 is left out: the volume is
-/// put right later.
+/// put right later, and until then the drop has as much less, or more, of P and L.
 void restore_ledger(Drop& drop, const Ledger& ledger, bool with_volume = true);
 
 /// The same for a drop that fell into pieces: what the pieces' own ledgers do not sum up to is shared

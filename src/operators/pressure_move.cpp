@@ -61,7 +61,7 @@ class Motion {
   }
 
   Vector3d end(std::uint32_t v) const {
-    Vector3d x = drop_.positions().col(v);
+    const Vector3d x = drop_.positions().col(v);
     switch (surface_.role[v]) {
       case Role::free:
       case Role::touching: {
@@ -158,7 +158,7 @@ void stop_at_discs(Drop& drop, const std::vector<Solid>& solids, double time, co
 /// U + rotation x r + u n on the free surface, without what would go into a solid that it touches.
 Vector3d surface_velocity(const Drop& drop, const Motion& motion, const PressureArrays& arrays, std::uint32_t v) {
   const Vector3d r = drop.positions().col(v) - arrays.surface.center;
-  Vector3d velocity =
+  const Vector3d velocity =
       motion.drift() + arrays.surface.rotation.cross(r) + arrays.deformation[v] * drop.workspace().geometry.normal(v);
   if (!is_colliding(drop.contact()[v])) return velocity;
   const Vector3d normal = drop.contact_normals().col(v);

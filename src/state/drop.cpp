@@ -119,7 +119,7 @@ Eigen::AlignedBox3d bounding_box(const Drop& drop) {
     least = least.min(four_points(i));
     most = most.max(four_points(i));
   }
-  for (int k = 0; k < 4; ++k) {
+  for (Eigen::Index k = 0; k < 4; ++k) {
     box.extend(Eigen::Vector3d(least.segment<3>(3 * k)));
     box.extend(Eigen::Vector3d(most.segment<3>(3 * k)));
   }

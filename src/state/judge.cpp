@@ -105,6 +105,7 @@ std::vector<std::vector<std::size_t>> components_of(const Soup& soup) {
   std::map<std::size_t, std::vector<std::size_t>> groups;
   for (std::size_t f = 0; f < soup.triangles.size(); ++f) groups[root(soup.triangles[f][0])].push_back(f);
   std::vector<std::vector<std::size_t>> components;
+  components.reserve(groups.size());
   for (auto& group : groups) components.push_back(std::move(group.second));
   return components;
 }
@@ -164,7 +165,7 @@ std::string connectivity_defect(const Drop& drop) {
         return fmt::format("vertex {}: rings differ", v);
     }
     for (int k = a.degree <= Connectivity::width ? a.degree : 0; k < Connectivity::width; ++k)
-      if (kept.neighbour_rows()[Connectivity::width * v + static_cast<std::size_t>(k)] != v)
+      if (kept.neighbour_rows()[Connectivity::width * std::size_t{v} + static_cast<std::size_t>(k)] != v)
         return fmt::format("vertex {}: the row is not padded", v);
   }
   if (kept.long_rings().size() != fresh.long_rings().size()) return "long rings differ";

@@ -50,12 +50,13 @@ bool gather_if_of_type(const Mesh& from, Mesh& to, const std::string& name, cons
   auto map = to.add_property_map<VertexIndex, T>(name).first;
   for (std::size_t i = 0; i < sources.size(); ++i) {
     T& value = map[VertexIndex(static_cast<Mesh::size_type>(first_row + i))];
-    if (how == Gather::replace)
-      value = value_at(found.first, sources[i]);
-    else if constexpr (std::is_floating_point_v<T>)
-      value = static_cast<T>(0.5 * (double{value} + double{value_at(found.first, sources[i])}));
-    else if constexpr (std::is_same_v<T, Vector>)
-      value = 0.5 * (value + value_at(found.first, sources[i]));
+    const T there = value_at(found.first, sources[i]);
+    if (how == Gather::replace) {
+      value = there;
+      continue;
+    }
+    if constexpr (std::is_floating_point_v<T>) value = static_cast<T>(0.5 * (double{value} + double{there}));
+    if constexpr (std::is_same_v<T, Vector>) value = 0.5 * (value + there);
   }
   return true;
 }

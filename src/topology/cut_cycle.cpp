@@ -47,6 +47,7 @@ bool is_cuttable(const Mesh& mesh, const std::vector<HalfedgeIndex>& cycle) {
   const std::size_t n = cycle.size();
   if (n < 3) return false;
   std::vector<VertexIndex> vertices;
+  vertices.reserve(n);
   for (const auto h : cycle) vertices.push_back(mesh.source(h));
   std::sort(vertices.begin(), vertices.end());
   if (std::adjacent_find(vertices.begin(), vertices.end()) != vertices.end()) return false;

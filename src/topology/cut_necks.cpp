@@ -154,10 +154,8 @@ std::vector<VertexIndex> insert_vertices(Mesh& mesh, AttributeMaps& attributes, 
       mesh.point(v) = to_point(p + t * (q - p));
       attributes.interpolate(v, a, b, t);
     }
-    if (loop.empty() || (loop.back() != v && loop.front() != v))
-      loop.push_back(v);
-    else if (loop.front() == v && loop.back() != v && h != neck.section.crossings.back())
-      loop.push_back(v);
+    const bool closes = !loop.empty() && loop.front() == v && h == neck.section.crossings.back();
+    if (loop.empty() || (loop.back() != v && !closes)) loop.push_back(v);
   }
   while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
   return loop;

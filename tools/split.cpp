@@ -83,6 +83,7 @@ std::vector<MeshData> separate(const MeshData& data, const SplitOptions& options
     if (options.neck) cuts = naming(options.input, [&] { return cut_necks(drop, *options.neck); });
     return connected_components(drop.mesh());
   });
+  pieces.reserve(meshes.size());
   for (const Mesh& mesh : meshes) pieces.push_back(to_output(mesh, data, meshes.size() == 1 && cuts.cuts == 0));
   return pieces;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/core/error.h"
 #include "meniscus/operators/pressure.h"
+#include "meniscus/simulation/merge_touching.h"
 #include "meniscus/state/ledger.h"
 #include "recover_step.h"
 #include "round_off.h"
@@ -41,6 +42,7 @@ struct Way {
   double next;                                ///< s to try
   std::optional<Eigen::Vector3d> velocity{};  ///< with which its centre of mass flies on; none on a solid
   int substeps = 0;
+  bool is_calmed = false;  ///< see calm_newly_torn
 };
 
 /// One substep of at most `longest` (s): how long it was. Carries `velocity` on, if there is one.
@@ -132,6 +134,16 @@ void arrive(Drop& drop, std::vector<Drop>& cut_off, const Way& way) {
   restore_velocity(&drop, cut_off, 0, *way.velocity);
 }
 
+/// A piece that was torn off in this very step and that no substep is short enough for goes on with its mean motion:
+/// the violent motion of the neck that it was torn from is no motion of its own. Once: returns whether it did.
+bool calm_newly_torn(Drop& piece, Way& way) {
+  if (piece.id() != no_id || way.is_calmed) return false;
+  const Eigen::Vector3d mean = mean_over_vertices(piece, piece.velocities());
+  piece.velocities().colwise() = mean;
+  way.is_calmed = true;
+  return true;
+}
+
 /// Takes a drop to the end of the step of dt, or until something is cut off it: that lies in `cut_off` then. Returns
 /// whether the drop goes on.
 bool travel(Drop& drop, Way& way, std::vector<Drop>& cut_off, const std::vector<Solid>& solids, double time, double dt,
@@ -144,7 +156,11 @@ bool travel(Drop& drop, Way& way, std::vector<Drop>& cut_off, const std::vector<
     try {
       take_substep(drop, way, solids, time, least_share * dt, options, kept, clock, report);
     } catch (const NumericsError&) {
-      if (!may_be_rounded_off(drop, options.band)) throw;
+      if (!may_be_rounded_off(drop, options.band)) {
+        if (!calm_newly_torn(drop, way)) throw;
+        way.next = way.left;
+        continue;
+      }
       ++report.rounded;
       drop.set_target_volume(drop.target_volume() + drop.inflow() * way.left);
       drop = rounded_off(drop, solids, time, way.left, options.band);
@@ -177,6 +193,7 @@ struct Traveller {
 void send_pieces(Drop& drop, std::vector<Drop>& cut_off, Way way, double inflow, const std::vector<Solid>& solids,
                  std::vector<Traveller>& on_the_way) {
   way.velocity.reset();  // each has its own
+  way.is_calmed = false;
   cut_off.insert(cut_off.begin(), std::move(drop));
   keep_inflow(cut_off, solids, inflow);
   for (auto piece = cut_off.rbegin(); piece != cut_off.rend(); ++piece) on_the_way.push_back({std::move(*piece), way});

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 namespace meniscus {
@@ -169,6 +170,22 @@ void lift_films(Drop& drop, const std::vector<Solid>& solids, double time, doubl
   }
 }
 
+void stop_at_discs(Drop& drop, const std::vector<Solid>& solids, double time,
+                   const std::function<Vector3d(std::uint32_t)>& before) {
+  if (std::none_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.inflow.has_value(); })) return;
+  const Eigen::AlignedBox3d box = bounding_box(drop);
+  for (const Solid& solid : solids) {
+    if (!solid.inflow || !solid.is_near(box, time, 0)) continue;
+    for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
+      if (drop.connectivity().degree(v) == 0 || is_colliding(drop.contact()[v])) continue;
+      const Vector3d x = drop.positions().col(v);
+      if (!solid.is_near(x, time, 0)) continue;
+      const SolidContact contact = solid.query(x, time);
+      if (contact.distance < 0 && solid.query(before(v), time).distance >= 0) drop.positions().col(v) = contact.point;
+    }
+  }
+}
+
 void lift_landed(Drop& drop, const std::vector<Solid>& solids, double time, const std::vector<std::uint32_t>& landed,
                  const std::vector<std::uint8_t>& was_wetted) {
   if (landed.empty()) return;
@@ -177,7 +194,6 @@ void lift_landed(Drop& drop, const std::vector<Solid>& solids, double time, cons
   for (const std::uint32_t v : landed) {
     std::int32_t& solid = drop.contact_solid()[v];
     const Solid& below = solids[static_cast<std::size_t>(solid)];
-    if (below.inflow) continue;
     const Vector3d p = drop.positions().col(v), n = drop.contact_normals().col(v);
     if (!wetted.cover(p, n, v)) continue;
     lift(drop, v, film_height(drop, v, p, n, 0), p, n, below.velocity(time));

@@ -137,24 +137,6 @@ void find_contact_anew(Drop& drop, const std::vector<Solid>& solids, double time
   apply_external_forces(drop, solids, time, 0, options);
 }
 
-/// Free vertices that evening out put through a source's disc, from in front of it, stop on it: lift_films takes what
-/// is deep behind one for what passes there.
-void stop_at_discs(Drop& drop, const std::vector<Solid>& solids, double time, const std::vector<Vector3d>& shift) {
-  if (std::none_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.inflow.has_value(); })) return;
-  const Eigen::AlignedBox3d box = bounding_box(drop);
-  for (const Solid& solid : solids) {
-    if (!solid.inflow || !solid.is_near(box, time, 0)) continue;
-    for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
-      if (drop.connectivity().degree(v) == 0 || is_colliding(drop.contact()[v])) continue;
-      const Vector3d x = drop.positions().col(v);
-      if (!solid.is_near(x, time, 0)) continue;
-      const SolidContact contact = solid.query(x, time);
-      if (contact.distance < 0 && solid.query(x - shift[v], time).distance >= 0)
-        drop.positions().col(v) = contact.point;
-    }
-  }
-}
-
 /// U + rotation x r + u n on the free surface, without what would go into a solid that it touches.
 Vector3d surface_velocity(const Drop& drop, const Motion& motion, const PressureArrays& arrays, std::uint32_t v) {
   const Vector3d r = drop.positions().col(v) - arrays.surface.center;
@@ -232,7 +214,8 @@ PressureReport PressureStep::move() {
   find_contact_anew(drop_, solids_, time_ + dt_, options_.edge_max);
 
   even_out(drop_, options_, arrays);
-  stop_at_discs(drop_, solids_, time_ + dt_, arrays.shift);
+  stop_at_discs(drop_, solids_, time_ + dt_,
+                [&](std::uint32_t v) -> Vector3d { return drop_.positions().col(v) - arrays.shift[v]; });
   measure_solid(std::as_const(drop_).positions(), drop_.connectivity(), surface);
   if (turns) {  // the angular momentum stays
     const Matrix3d inertia = inertia_about(surface.center, std::as_const(drop_).positions(), drop_.connectivity());

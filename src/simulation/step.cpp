@@ -208,6 +208,13 @@ int num_substeps(const Drop& drop, const std::vector<Solid>& solids, double time
 /// Films lower than this (in lengths of edge_min) come down no further and have no volume to give.
 constexpr double low_film = 0.05;
 
+/// Above the drop's own wetted area, what it was above at the start of the substep.
+void keep_films(Drop& drop, const std::vector<Solid>& solids, double time, const StepOptions& options) {
+  const ConstColumns start = drop.workspace().kept.positions();
+  stop_at_discs(drop, solids, time, [&](std::uint32_t v) -> Vector3d { return start.col(v); });
+  lift_films(drop, solids, time, low_film * options.band.edge_min);
+}
+
 /// The mean place (cm) and velocity (cm/s) of a drop's vertices.
 struct Means {
   Vector3d place, velocity;
@@ -276,7 +283,7 @@ double deform(Drop& drop, const std::vector<Solid>& solids, double time, double 
   clock.done(Stage::damping);
 
   // What lifting films adds is taken from elsewhere, and what sank in by that is lifted for good.
-  if (forces.colliding > 0) lift_films(drop, solids, time, low_film * options.band.edge_min);
+  if (forces.colliding > 0) keep_films(drop, solids, time, options);
   const VolumeCorrectionReport volume = correct_volume(drop, geometry, dt, volume_options(options, drop));
   if (in_flight) {
     restore_means(drop, *in_flight);
@@ -290,7 +297,7 @@ double deform(Drop& drop, const std::vector<Solid>& solids, double time, double 
                                     drop.id(), 1 + volume.relative_error));
   clock.done(Stage::volume_correction);
 
-  if (forces.colliding > 0) lift_films(drop, solids, time, low_film * options.band.edge_min);
+  if (forces.colliding > 0) keep_films(drop, solids, time, options);
   if (options.volume_correction == VolumeCorrectionMethod::none) report.skip(Stage::volume_correction);
   return volume.relative_error_before;
 }

@@ -37,8 +37,10 @@ void SheetGuard::add(std::uint32_t face) {
 }
 
 void SheetGuard::forget(std::uint32_t face) {
-  is_forgotten_.resize(std::max(is_forgotten_.size(), drop_.connectivity().triangles().size()), 0);
-  is_forgotten_[face] = 1;
+  const auto& triangles = drop_.connectivity().triangles();
+  constexpr std::uint32_t removed = Connectivity::removed;
+  forgotten_.resize(std::max(forgotten_.size(), triangles.size()), Triangle{removed, removed, removed});
+  forgotten_[face] = triangles[face];
 }
 
 void SheetGuard::find_near(const Eigen::AlignedBox3d& box, const std::vector<std::uint32_t>& replaced,
@@ -59,7 +61,7 @@ void SheetGuard::find_near(const Eigen::AlignedBox3d& box, const std::vector<std
   for (const std::uint32_t face : near_faces_) {
     const Triangle& t = mesh.triangles[face];
     if (t[0] == Connectivity::removed || holds(removed, face)) continue;
-    if (face < is_forgotten_.size() && is_forgotten_[face] != 0) continue;
+    if (face < forgotten_.size() && forgotten_[face] == t) continue;
     if (holds(replaced, t[0]) || holds(replaced, t[1]) || holds(replaced, t[2])) continue;
     const PlacedTriangle placed = placed_face(mesh, face);
     if (box.intersects(placed.box())) near_.push_back(placed);

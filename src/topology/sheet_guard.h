@@ -41,7 +41,7 @@ class SheetGuard {
   /// A face was made or moved. No matter if it is known already.
   void add(std::uint32_t face);
 
-  /// A face is about to go away: nothing has to keep clear of it.
+  /// A face is about to go away: nothing has to keep clear of it as long as it has the vertices that it has now.
   void forget(std::uint32_t face);
 
  private:
@@ -63,7 +63,7 @@ class SheetGuard {
   std::vector<std::uint32_t> first_entry_;    // of each cell
   std::vector<Entry> entries_;                // faces made or moved since
   std::vector<Eigen::AlignedBox3d> entered_;  // by face: where its last entry has it
-  std::vector<std::uint8_t> is_forgotten_;    // by face, if any is
+  std::vector<Triangle> forgotten_;           // by face, if any is: its vertices then, for its place may be used again
   std::vector<PlacedTriangle> new_, near_;    // of the operation at hand
   std::vector<std::uint32_t> near_faces_;
 };

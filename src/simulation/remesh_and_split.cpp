@@ -164,8 +164,11 @@ bool change_topology(Drop& drop, std::vector<Drop>& cut_off, const ConstColumns&
     if (!is_watched && !remeshed.changed()) drop.set_slack(slack_share * options.band.edge_min);
     if (drop.topology_version() != version) after = "remeshing";
   }
-  const bool was_off = options.level == Level::pressure && report.worst_volume_error >= least_volume_error;
-  const bool may_be_off = remeshed.changed() || !drop.workspace().films.empty() || was_off;
+  // At Level::pressure nothing corrects the volume but the next substep. A substep that was not watched ended as
+  // measured, and the worst of the step so far bounds what was measured.
+  const bool may_be_left_off =
+      options.level == Level::pressure && (is_watched || report.worst_volume_error >= least_volume_error);
+  const bool may_be_off = remeshed.changed() || !drop.workspace().films.empty() || may_be_left_off;
   if (options.remesh && may_be_off && remeshed.cuts == 0) give_back_volume(drop, options);
   if (!remeshed.changed()) report.skip(Stage::remesh);
   report.edge_operations += remeshed.splits + remeshed.collapses + remeshed.flips + remeshed.lifts;

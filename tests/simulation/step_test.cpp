@@ -8,6 +8,7 @@
 #include "meniscus/simulation/simulation.h"
 #include "meniscus/state/contact_line.h"
 #include "meniscus/state/ledger.h"
+#include "support/knot.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -96,16 +97,8 @@ TEST(Step, AWholeStepInFreeFallIsFreeFall) {
 }
 
 TEST(Step, ASpeckDoesNotDriveItself) {
-  // Five vertices, one far out: the normals that the volume is given back along do not add up to nothing.
-  Mesh mesh;
-  const auto at = [&](double x, double y, double z) { return mesh.add_vertex(Point(x, y, z)); };
-  const auto a = at(0.004, 0, 0), b = at(-0.002, 0.003, 0), c = at(-0.002, -0.003, 0), top = at(0, 0, 0.009),
-             bottom = at(0.001, 0.001, -0.002);
-  for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-    mesh.add_face(p, q, top);
-    mesh.add_face(q, p, bottom);
-  }
-  Drop drop(std::move(mesh));
+  // The normals that the volume is given back along do not add up to nothing.
+  Drop drop(make_knot());
   StepOptions options = free_drop_options();
   StepReport report;
   for (int k = 1; k <= 200; ++k) drop = step(std::move(drop), k * 1e-3, 1e-3, options, report);

@@ -2,6 +2,7 @@
 #include "meniscus/state/ledger.h"
 
 #include "meniscus/geometry/shapes.h"
+#include "support/knot.h"
 
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <gtest/gtest.h>
@@ -159,15 +160,7 @@ TEST(Ledger, PiecesShareWhatIsMissing) {
 /// A knot of six faces hardly has a motion that carries what it carried before it was mended: some were made ten times
 /// as fast by every mending. A tetrahedron pair that is drawn together to a needle is to keep its spin.
 TEST(Ledger, AKnotIsNotMadeMuchFasterThanItWas) {
-  Mesh mesh;
-  const auto at = [&](double x, double y, double z) { return mesh.add_vertex(Point(x, y, z)); };
-  const auto a = at(0.004, 0, 0), b = at(-0.002, 0.003, 0), c = at(-0.002, -0.003, 0), top = at(0, 0, 0.009),
-             bottom = at(0.001, 0.001, -0.002);
-  for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-    mesh.add_face(p, q, top);
-    mesh.add_face(q, p, bottom);
-  }
-  Drop drop(std::move(mesh));
+  Drop drop(make_knot());
   for (Eigen::Index i = 0; i < drop.velocities().cols(); ++i)
     drop.velocities().col(i) = Vector3d(3, 4, 5) + 1e4 * Vector3d::UnitZ().cross(Vector3d(drop.positions().col(i)));
   const Ledger ledger = measure_ledger(drop);

@@ -18,8 +18,8 @@ namespace meniscus {
 ///
 /// Reads contact state and solids at `time` (s); writes positions (cm) of free vertices,
 /// and takes from their velocities (cm/s) what would go into the solid. Vertices up to `low` (cm) above the
-/// wetted area lose that speed, too. Both are marked in workspace().films. What is
-/// deep behind a source's disc passes there; a drop that touches nothing is left as it is.
+/// wetted area lose that speed, too. Both are marked in workspace().films. What is deep behind a source's disc passes
+/// there; a drop that touches nothing is left as it is.
 void lift_films(Drop& drop, const std::vector<Solid>& solids, double time, double low = 0);
 
 /// The same for vertices that a step has just put on a solid: those of `landed` that came down through the drop's own
@@ -30,6 +30,7 @@ void lift_landed(Drop& drop, const std::vector<Solid>& solids, double time, cons
 
 /// Free vertices that came through a source's disc from in front of it, where `before` has them (cm, by row), stop on
 /// it: lift_films takes what is deep behind a disc for what passes there. Liquid that runs off a tilted disc does so.
+/// Reads contact state and solids at `time` (s); writes positions (cm) of free vertices.
 void stop_at_discs(Drop& drop, const std::vector<Solid>& solids, double time,
                    const std::function<Eigen::Vector3d(std::uint32_t)>& before);
 

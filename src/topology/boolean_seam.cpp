@@ -239,10 +239,11 @@ std::optional<Seam> find_seam(const MeshView& a, const std::vector<FaceBox>& fac
 
 std::optional<Seam> find_self_seam(const MeshView& mesh, const std::vector<FaceBox>& faces) {
   Collector collector(mesh, mesh);
-  const bool in_general_position = SortedBoxes(faces).for_each_pair([&](const FaceBox& f, const FaceBox& g) {
-    return share_a_vertex(mesh.triangles[f.face], mesh.triangles[g.face])
-               ? meet_as_neighbours(mesh, f.face, g.face)
-               : collector.look_at(f.face, g.face) && collector.look_at(g.face, f.face);
+  const bool in_general_position = SortedBoxes(faces).for_each_pair([&](std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t f = faces[a].face, g = faces[b].face;
+    return share_a_vertex(mesh.triangles[f], mesh.triangles[g])
+               ? meet_as_neighbours(mesh, f, g)
+               : collector.look_at(f, g) && collector.look_at(g, f);
   });
   if (!in_general_position) return std::nullopt;
   return finish(collector, mesh, mesh);

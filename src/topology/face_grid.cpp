@@ -62,8 +62,7 @@ std::vector<FaceBox> faces_in(const MeshView& view, const Eigen::AlignedBox3d& r
   for (std::uint32_t f = 0; f < view.triangles.size(); ++f) {
     const Triangle& t = view.triangles[f];
     if (t[0] == Connectivity::removed) continue;
-    const Eigen::Vector3d a = view.points.col(t[0]), b = view.points.col(t[1]), c = view.points.col(t[2]);
-    const Eigen::AlignedBox3d box(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
+    const Eigen::AlignedBox3d box = box_of(view, t);
     if (region.intersects(box)) faces.push_back({box, f});
   }
   return faces;

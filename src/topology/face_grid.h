@@ -70,6 +70,11 @@ class FaceGrid {
   std::vector<std::uint32_t> first_, entries_;
 };
 
+inline Eigen::AlignedBox3d box_of(const MeshView& view, const Triangle& t) {
+  const Eigen::Vector3d a = view.points.col(t[0]), b = view.points.col(t[1]), c = view.points.col(t[2]);
+  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+}
+
 /// The box of all triangles of a view; empty if there are none.
 Eigen::AlignedBox3d box_of(const MeshView& view);
 

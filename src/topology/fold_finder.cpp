@@ -9,8 +9,7 @@
 namespace meniscus {
 namespace {
 
-std::vector<PlacedTriangle> placed_faces(const Drop& drop, const std::vector<FaceBox>& faces) {
-  const MeshView mesh = view_of(drop);
+std::vector<PlacedTriangle> placed_faces(const MeshView& mesh, const std::vector<FaceBox>& faces) {
   std::vector<PlacedTriangle> placed;
   placed.reserve(faces.size());
   for (const FaceBox& face : faces) placed.push_back(placed_face(mesh, face.face));
@@ -25,13 +24,12 @@ FoldFinder::FoldFinder(const Drop& drop, std::vector<FaceBox> faces)
       place_(drop.connectivity().triangles().size(), none),
       has_moved_(faces_.size(), 0),
       is_waiting_(faces_.size(), 0) {
-  const std::vector<PlacedTriangle> placed = placed_faces(drop_, faces_);
+  const std::vector<PlacedTriangle> placed = placed_faces(view_of(drop_), faces_);
   for (std::uint32_t k = 0; k < faces_.size(); ++k) place_[faces_[k].face] = k;
-  SortedBoxes(faces_).for_each_pair([&](const FaceBox& f, const FaceBox& g) {
-    if (meet(placed[place_[f.face]], placed[place_[g.face]]))
-      meeting_.push_back({std::min(f.face, g.face), std::max(f.face, g.face)});
-    return true;
-  });
+  const auto meeting = SortedBoxes(faces_).pairs_if(
+      [&](std::uint32_t a, std::uint32_t b) { return meet(placed[a], placed[b]); });
+  for (const auto& [a, b] : meeting)
+    meeting_.push_back({std::min(faces_[a].face, faces_[b].face), std::max(faces_[a].face, faces_[b].face)});
   std::sort(meeting_.begin(), meeting_.end());
 }
 
@@ -99,16 +97,13 @@ void FoldFinder::look_again() {
 }
 
 Eigen::AlignedBox3d FoldFinder::box_now(std::uint32_t face) const {
-  Eigen::AlignedBox3d box;
-  for (const auto v : drop_.connectivity().triangles()[face]) box.extend(Eigen::Vector3d(drop_.positions().col(v)));
-  return box;
+  return box_of(view_of(drop_), drop_.connectivity().triangles()[face]);
 }
 
-bool meet_each_other(const Drop& drop, std::vector<FaceBox> faces) {
-  const std::vector<PlacedTriangle> placed = placed_faces(drop, faces);
-  for (std::uint32_t k = 0; k < faces.size(); ++k) faces[k].face = k;
+bool meet_each_other(const MeshView& mesh, const std::vector<FaceBox>& faces) {
+  const std::vector<PlacedTriangle> placed = placed_faces(mesh, faces);
   return !SortedBoxes(faces).for_each_pair(
-      [&](const FaceBox& f, const FaceBox& g) { return !meet(placed[f.face], placed[g.face]); });
+      [&](std::uint32_t a, std::uint32_t b) { return !meet(placed[a], placed[b]); });
 }
 
 }  // namespace meniscus

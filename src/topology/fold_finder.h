@@ -44,6 +44,6 @@ class FoldFinder {
 };
 
 /// Whether any two of the faces meet elsewhere than in what they share.
-bool meet_each_other(const Drop& drop, std::vector<FaceBox> faces);
+bool meet_each_other(const MeshView& mesh, const std::vector<FaceBox>& faces);
 
 }  // namespace meniscus

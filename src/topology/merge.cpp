@@ -48,13 +48,16 @@ std::optional<SharedPlane> shared_plane(const Drop& a, const Drop& b) {
   return plane;
 }
 
-/// A drop's points turned so that the plane is z = 0, with those on it exactly there: faces that both
-/// drops have on the plane are then coplanar not just up to rounding.
+/// A drop's points turned so that the plane is z = 0, with those on it exactly there, colliding or there but for
+/// rounding: faces that both drops have on the plane are then coplanar not just up to rounding.
 Eigen::Matrix3Xd flattened(const Drop& drop, const SharedPlane& plane, const Matrix3d& turn) {
+  const double rounding = 1e-13 * (std::abs(plane.offset) + std::cbrt(drop.target_volume()));
   Eigen::Matrix3Xd x = turn * drop.positions();
   x.row(2).array() -= plane.offset;
-  for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-    if (drop.connectivity().degree(i) > 0 && is_colliding(drop.contact()[i])) x(2, i) = 0;
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
+    if (drop.connectivity().degree(i) == 0) continue;
+    if (is_colliding(drop.contact()[i]) || std::abs(x(2, i)) < rounding) x(2, i) = 0;
+  }
   return x;
 }
 
@@ -68,27 +71,48 @@ Matrix3d turn_to_plane(const Vector3d& normal) {
   return turn;
 }
 
-/// The union, with the points of kept rows to the bit as they were.
-BooleanResult unite(const Drop& a, const Drop& b, const MergeOptions& options) {
-  BooleanOptions boolean_options;
-  boolean_options.inputs_are_sound = true;
-  boolean_options.keep_cavities = options.keep_air;
-  const std::optional<SharedPlane> plane = shared_plane(a, b);
-  if (!plane) return boolean(view_of(a), view_of(b), BooleanOperation::unite, boolean_options);
-  const Matrix3d turn = turn_to_plane(plane->normal);
-  const Eigen::Matrix3Xd xa = flattened(a, *plane, turn), xb = flattened(b, *plane, turn);
+/// The faces of a result that are new, or have a corner where `flags` says so.
+std::vector<FaceBox> faces_in_doubt(const BooleanResult& result, const std::vector<std::uint8_t>& flags) {
+  const MeshView mesh = boolean_parts::view_of(result);
+  std::vector<FaceBox> faces;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    const auto& [i, j, k] = mesh.triangles[f];
+    if (f >= result.whole_a + result.whole_b || (flags[i] | flags[j] | flags[k]) != 0)
+      faces.push_back({box_of(mesh, mesh.triangles[f]), f});
+  }
+  return faces;
+}
+
+/// The union of drops on a plane, with the points of kept rows to the bit as they were. None if that makes it meet
+/// itself.
+std::optional<BooleanResult> unite_on(const SharedPlane& plane, const Drop& a, const Drop& b,
+                                      const BooleanOptions& options) {
+  const Matrix3d turn = turn_to_plane(plane.normal);
+  const Eigen::Matrix3Xd xa = flattened(a, plane, turn), xb = flattened(b, plane, turn);
   BooleanResult result =
       boolean({{xa.data(), xa.cols()}, a.connectivity().triangles()},
-              {{xb.data(), xb.cols()}, b.connectivity().triangles()}, BooleanOperation::unite, boolean_options);
+              {{xb.data(), xb.cols()}, b.connectivity().triangles()}, BooleanOperation::unite, options);
+  std::vector<std::uint8_t> is_on_plane;
+  for (const auto& p : result.points) is_on_plane.push_back(p[2] == 0);
   const auto set = [&](std::size_t row, const Vector3d& x) { result.points[row] = {x[0], x[1], x[2]}; };
   std::size_t row = 0;
   for (const std::uint32_t v : result.kept_a) set(row++, a.positions().col(v));
   for (const std::uint32_t v : result.kept_b) set(row++, b.positions().col(v));
   for (; row < result.points.size(); ++row) {
     const auto& p = result.points[row];
-    set(row, turn.transpose() * Vector3d(p[0], p[1], p[2] + plane->offset));
+    set(row, turn.transpose() * Vector3d(p[0], p[1], p[2] + plane.offset));
   }
+  if (meet_each_other(boolean_parts::view_of(result), faces_in_doubt(result, is_on_plane))) return std::nullopt;
   return result;
+}
+
+BooleanResult unite(const Drop& a, const Drop& b, const MergeOptions& options) {
+  BooleanOptions boolean_options;
+  boolean_options.inputs_are_sound = true;
+  boolean_options.keep_cavities = options.keep_air;
+  if (const std::optional<SharedPlane> plane = shared_plane(a, b))
+    if (std::optional<BooleanResult> result = unite_on(*plane, a, b, boolean_options)) return *std::move(result);
+  return boolean(view_of(a), view_of(b), BooleanOperation::unite, boolean_options);
 }
 
 Mesh mesh_of(const BooleanResult& result) {
@@ -200,7 +224,7 @@ void give_back(std::vector<Drop>& pieces, const Ledger& ledger, const MergeOptio
   const std::vector<Drop> start = pieces;
   const auto meets_itself = [&](const Drop& piece) {
     const WatchedRegion region = guarded_region(piece, options.remesh.band.edge_max);
-    return !region.empty() && meet_each_other(piece, region.faces_of(piece));
+    return !region.empty() && meet_each_other(view_of(piece), region.faces_of(piece));
   };
   for (const bool with_volume : {true, false}) {
     restore_ledger(pieces, ledger, with_volume);

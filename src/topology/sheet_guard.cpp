@@ -4,6 +4,7 @@
 #include "placed_face.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace meniscus {
 namespace {
@@ -45,27 +46,25 @@ void SheetGuard::forget(std::uint32_t face) {
 
 void SheetGuard::find_near(const Eigen::AlignedBox3d& box, const std::vector<std::uint32_t>& replaced,
                            const std::vector<std::uint32_t>& removed) {
-  near_faces_.clear();
+  near_.clear();
+  seen_.resize(drop_.connectivity().triangles().size(), 0);
+  ++query_;
+  const MeshView mesh = view_of(drop_);
+  const auto look_at = [&](std::uint32_t face) {
+    if (std::exchange(seen_[face], query_) == query_) return;
+    const Triangle& t = mesh.triangles[face];
+    if (t[0] == Connectivity::removed || holds(removed, face)) return;
+    if (face < forgotten_.size() && forgotten_[face] == t) return;
+    if (holds(replaced, t[0]) || holds(replaced, t[1]) || holds(replaced, t[2])) return;
+    if (box.intersects(box_of(mesh, t))) near_.push_back(placed_face(mesh, face));
+  };
   grid_->for_each_cell(box, [&](std::size_t cell) {
-    for (std::uint32_t k = first_entry_[cell]; k != no_entry; k = entries_[k].next)
-      near_faces_.push_back(entries_[k].face);
+    for (std::uint32_t k = first_entry_[cell]; k != no_entry; k = entries_[k].next) look_at(entries_[k].face);
   });
   grid_->for_each_meeting(box, [&](const FaceBox& other) {
-    near_faces_.push_back(other.face);
+    look_at(other.face);
     return true;
   });
-  std::sort(near_faces_.begin(), near_faces_.end());
-  near_faces_.erase(std::unique(near_faces_.begin(), near_faces_.end()), near_faces_.end());
-  near_.clear();
-  const MeshView mesh = view_of(drop_);
-  for (const std::uint32_t face : near_faces_) {
-    const Triangle& t = mesh.triangles[face];
-    if (t[0] == Connectivity::removed || holds(removed, face)) continue;
-    if (face < forgotten_.size() && forgotten_[face] == t) continue;
-    if (holds(replaced, t[0]) || holds(replaced, t[1]) || holds(replaced, t[2])) continue;
-    const PlacedTriangle placed = placed_face(mesh, face);
-    if (box.intersects(placed.box())) near_.push_back(placed);
-  }
 }
 
 bool SheetGuard::would_meet(const std::vector<NewFace>& faces, const std::vector<std::uint32_t>& replaced,

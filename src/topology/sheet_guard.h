@@ -65,7 +65,8 @@ class SheetGuard {
   std::vector<Eigen::AlignedBox3d> entered_;  // by face: where its last entry has it
   std::vector<Triangle> forgotten_;           // by face, if any is: its vertices then, for its place may be used again
   std::vector<PlacedTriangle> new_, near_;    // of the operation at hand
-  std::vector<std::uint32_t> near_faces_;
+  std::vector<std::uint32_t> seen_;           // by face: the last query that has looked at it
+  std::uint32_t query_ = 0;
 };
 
 }  // namespace meniscus

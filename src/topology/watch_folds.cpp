@@ -57,30 +57,25 @@ void watch_close_sheets(Drop& drop, const EdgeBand& band) {
   faces.erase(std::remove_if(faces.begin(), faces.end(),
                              [&](const FaceBox& f) { return !has(mesh.triangles[f.face], is_free); }),
               faces.end());
-  std::vector<std::uint32_t> face_at(faces.size());
-  std::vector<Vector3d> normal(faces.size());
-  for (std::uint32_t k = 0; k < faces.size(); ++k) {
-    face_at[k] = faces[k].face;
-    normal[k] = area_vector(mesh, mesh.triangles[faces[k].face]).stableNormalized();
-    faces[k].face = k;
-  }
+  std::vector<Vector3d> normal;
+  normal.reserve(faces.size());
+  for (const FaceBox& f : faces) normal.push_back(area_vector(mesh, mesh.triangles[f.face]).stableNormalized());
   const double ball_radius = std::cbrt(0.75 * drop.target_volume() / M_PI);
   const double thickest = std::clamp(thin * ball_radius, band.edge_min, band.edge_max);
-  const FaceGrid grid(faces);
+  const SortedBoxes near(faces);
   std::vector<std::uint32_t> kept;
   std::size_t k = 0;
   for (const auto f : ending) {
-    while (face_at[k] != f) ++k;  // both lists are sorted
+    while (faces[k].face != f) ++k;  // both lists are sorted
     const Triangle& s = mesh.triangles[f];
     const Eigen::AlignedBox3d& box = faces[k].box;
-    grid.for_each_meeting({box.min() - margin, box.max() + margin}, [&](const FaceBox& other) {
-      if (!(normal[k].dot(normal[other.face]) < opposite)) return true;
-      if (normal[k].dot(other.box.center() - box.center()) < -thickest) return true;
-      const Triangle& t = mesh.triangles[face_at[other.face]];
-      if (boolean_parts::share_a_vertex(s, t)) return true;
+    near.for_each_meeting({box.min() - margin, box.max() + margin}, [&](std::uint32_t other) {
+      if (!(normal[k].dot(normal[other]) < opposite)) return;
+      if (normal[k].dot(faces[other].box.center() - box.center()) < -thickest) return;
+      const Triangle& t = mesh.triangles[faces[other].face];
+      if (boolean_parts::share_a_vertex(s, t)) return;
       kept.insert(kept.end(), s.begin(), s.end());
       kept.insert(kept.end(), t.begin(), t.end());
-      return true;
     });
   }
   for (const auto v : kept) watch[v] = std::max(watch[v], violent_watched_calls);
@@ -106,30 +101,27 @@ void watch_thin_places(Drop& drop, double thickness) {
   const MeshView mesh = view_of(std::as_const(drop));
   const auto is_free = [&](std::uint32_t v) { return !is_colliding(drop.contact()[v]); };
   std::vector<FaceBox> inward;  // each face and what is under it
-  std::vector<std::uint32_t> face_at;
   std::vector<Vector3d> normal;
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
     const Triangle& t = mesh.triangles[f];
     if (t[0] == Connectivity::removed || !is_free(t[0]) || !is_free(t[1]) || !is_free(t[2])) continue;
     const Vector3d n = area_vector(mesh, t).stableNormalized();
-    FaceBox box{{}, static_cast<std::uint32_t>(inward.size())};
+    FaceBox box{{}, f};
     for (const auto v : t) {
       box.box.extend(Vector3d(mesh.points.col(v)));
       box.box.extend(Vector3d(mesh.points.col(v) - 0.5 * thickness * n));
     }
     inward.push_back(box);
-    face_at.push_back(f);
     normal.push_back(n);
   }
+  const auto face_at = [&](std::uint32_t k) -> const Triangle& { return mesh.triangles[inward[k].face]; };
   std::uint8_t* const watch = drop.seam_watch();
-  SortedBoxes(inward).for_each_pair([&](const FaceBox& a, const FaceBox& b) {
-    if (!(normal[a.face].dot(normal[b.face]) < opposite)) return true;
-    const Triangle &s = mesh.triangles[face_at[a.face]], &t = mesh.triangles[face_at[b.face]];
-    if (boolean_parts::share_a_vertex(s, t)) return true;
-    for (const Triangle* face : {&s, &t})
-      for (const auto v : *face) watch[v] = std::max(watch[v], violent_watched_calls);
-    return true;
+  const auto thin_places = SortedBoxes(inward).pairs_if([&](std::uint32_t a, std::uint32_t b) {
+    return normal[a].dot(normal[b]) < opposite && !boolean_parts::share_a_vertex(face_at(a), face_at(b));
   });
+  for (const auto& [a, b] : thin_places)
+    for (const auto k : {a, b})
+      for (const auto v : face_at(k)) watch[v] = std::max(watch[v], violent_watched_calls);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace meniscus {
 namespace {
@@ -11,7 +12,10 @@ namespace {
 using Eigen::Vector3d;
 
 /// So that a drop that blew up does not ask for a cell for each point of space.
-constexpr double most_cells_along = 1e6;
+constexpr double most_cells_along = 1e6, most_cells = 4e6;
+
+/// What a cell holds.
+constexpr std::uint8_t outside = 0, beside_watched = 1, watched = 2;
 
 }  // namespace
 
@@ -43,24 +47,32 @@ ContactSlab contact_slab(const Drop& drop) {
 WatchedRegion::WatchedRegion(const Drop& drop, double reach) {
   const ConstColumns x = drop.positions();
   const std::uint8_t* watch = drop.seam_watch();
-  const auto is_watched = [&](std::uint32_t v) { return watch[v] != 0 && drop.connectivity().degree(v) > 0; };
-  double size = 0;
-  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
-    if (is_watched(v)) size = std::max(size, x.col(v).cwiseAbs().maxCoeff());
+  Eigen::AlignedBox3d box;
+  const auto for_each_watched = [&](auto visit) {
+    for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
+      if (watch[v] != 0 && drop.connectivity().degree(v) > 0) visit(Vector3d(x.col(v)));
+  };
+  for_each_watched([&](const Vector3d& point) { box.extend(point); });
+  if (box.isEmpty()) return;
+  const double size = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   per_length_ = 1 / std::max(reach, size / most_cells_along);
-  std::unordered_set<Cell, Hash> watched;
-  for (std::uint32_t v = 0; v < drop.num_rows(); ++v)
-    if (is_watched(v)) watched.insert(cell(x.col(v)));
-  for (const Cell& c : watched)
+  const auto fit = [&] {
+    low_ = (box.min().array() * per_length_).floor() - 1;
+    size_ = (box.max().array() * per_length_).floor() + 2 - low_;
+    return size_.prod();
+  };
+  while (fit() > most_cells) per_length_ /= 2;
+  cells_.assign(static_cast<std::size_t>(size_.prod()), outside);
+  for_each_watched([&](const Vector3d& point) {
+    const Eigen::Array3d home = (point.array() * per_length_).floor() - low_;
+    if (std::exchange(cells_[index(home)], watched) == watched) return;
     for (int i = -1; i <= 1; ++i)
       for (int j = -1; j <= 1; ++j)
-        for (int k = -1; k <= 1; ++k) cells_.insert({c[0] + i, c[1] + j, c[2] + k});
-}
-
-WatchedRegion::Cell WatchedRegion::cell(const Vector3d& x) const {
-  return {static_cast<std::int64_t>(std::floor(x[0] * per_length_)),
-          static_cast<std::int64_t>(std::floor(x[1] * per_length_)),
-          static_cast<std::int64_t>(std::floor(x[2] * per_length_))};
+        for (int k = -1; k <= 1; ++k) {
+          std::uint8_t& cell = cells_[index(home + Eigen::Array3d(i, j, k))];
+          cell = std::max(cell, beside_watched);
+        }
+  });
 }
 
 std::vector<FaceBox> WatchedRegion::faces_of(const Drop& drop) const {

@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 
 #include <array>
-#include <unordered_set>
 #include <vector>
 
 namespace meniscus {
@@ -25,7 +24,7 @@ struct ContactSlab {
 ContactSlab contact_slab(const Drop& drop);
 
 /// Where sheets of a drop's surface may be close together: all within one to two `reach` of a watched vertex
-/// (Drop::seam_watch), as cells of a grid.
+/// (Drop::seam_watch), as cells of a grid over the box of these vertices.
 class WatchedRegion {
  public:
   /// `reach` in cm: some edges long.
@@ -39,7 +38,9 @@ class WatchedRegion {
   bool empty() const { return !is_everywhere_ && cells_.empty() && slab_.box.isEmpty(); }
   /// Whether x is near a watched vertex.
   bool covers(const Eigen::Vector3d& x) const {
-    return is_everywhere_ || (!cells_.empty() && cells_.count(cell(x)) != 0);
+    if (cells_.empty()) return is_everywhere_;
+    const Eigen::Array3d at = (x.array() * per_length_).floor() - low_;
+    return ((at >= 0) && (at < size_)).all() && cells_[index(at)] != 0;
   }
   /// Any of its corners is, or it reaches into the slab.
   bool covers(const std::array<Eigen::Vector3d, 3>& face) const {
@@ -49,17 +50,14 @@ class WatchedRegion {
   std::vector<FaceBox> faces_of(const Drop& drop) const;
 
  private:
-  using Cell = std::array<std::int64_t, 3>;
-  struct Hash {
-    std::size_t operator()(const Cell& c) const {
-      return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
-    }
-  };
-  Cell cell(const Eigen::Vector3d& x) const;
+  std::size_t index(const Eigen::Array3d& cell) const {
+    return static_cast<std::size_t>(cell[0] + size_[0] * (cell[1] + size_[1] * cell[2]));
+  }
 
   bool is_everywhere_ = false;
   double per_length_ = 0;
-  std::unordered_set<Cell, Hash> cells_;
+  Eigen::Array3d low_ = Eigen::Array3d::Zero(), size_ = Eigen::Array3d::Zero();  // in cells: whole numbers
+  std::vector<std::uint8_t> cells_;                                              // not 0: covered
   ContactSlab slab_;
 };
 

@@ -10,13 +10,15 @@
 
 /// Loops over the rows of one large array on several threads. Rows are cut into chunks by their number alone, and
 /// sums over chunks are added in the order of the chunks: the same bits come out on any number of threads.
-/// Up to `least_rows` rows are one chunk and run where they are called.
+/// Up to `least_rows` rows are one chunk and run where they are called; loops with more work a row give fewer.
 namespace meniscus {
 
 namespace chunks {
 inline constexpr std::size_t least_rows = 8192;
 inline constexpr std::size_t most = 32;
-inline std::size_t count(std::size_t rows) { return rows <= least_rows ? 1 : std::min(most, rows / (least_rows / 4)); }
+inline std::size_t count(std::size_t rows, std::size_t least = least_rows) {
+  return rows <= least ? 1 : std::min(most, rows / (least / 4));
+}
 inline std::size_t begin(std::size_t rows, std::size_t chunk, std::size_t count) { return rows * chunk / count; }
 }  // namespace chunks
 
@@ -35,8 +37,8 @@ void for_each_chunk(std::size_t rows, const Body& body) {
 
 /// The sum of body(begin, end) over the chunks of [0, rows). Allocates nothing.
 template <class Sum, class Body>
-Sum sum_over_chunks(std::size_t rows, const Sum& zero, const Body& body) {
-  const std::size_t count = chunks::count(rows);
+Sum sum_over_chunks(std::size_t rows, const Sum& zero, const Body& body, std::size_t least = chunks::least_rows) {
+  const std::size_t count = chunks::count(rows, least);
   if (count == 1) return body(std::size_t{0}, rows);
   std::array<Sum, chunks::most> parts;
   parts.fill(zero);

@@ -26,8 +26,8 @@ FoldFinder::FoldFinder(const Drop& drop, std::vector<FaceBox> faces)
       is_waiting_(faces_.size(), 0) {
   const std::vector<PlacedTriangle> placed = placed_faces(view_of(drop_), faces_);
   for (std::uint32_t k = 0; k < faces_.size(); ++k) place_[faces_[k].face] = k;
-  const auto meeting = SortedBoxes(faces_).pairs_if(
-      [&](std::uint32_t a, std::uint32_t b) { return meet(placed[a], placed[b]); });
+  const auto meeting =
+      SortedBoxes(faces_).pairs_if([&](std::uint32_t a, std::uint32_t b) { return meet(placed[a], placed[b]); });
   for (const auto& [a, b] : meeting)
     meeting_.push_back({std::min(faces_[a].face, faces_[b].face), std::max(faces_[a].face, faces_[b].face)});
   std::sort(meeting_.begin(), meeting_.end());

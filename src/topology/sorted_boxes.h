@@ -14,16 +14,16 @@
 namespace meniscus {
 
 /// Boxes in the order of their lower ends along the longest side of what holds them all, four in a register: to find
-/// those that meet each other, or a given one. For boxes of surfaces, of which a plane across meets few. Coordinates are
-/// no NaN. Boxes are told of by their places in the list that they came in.
+/// those that meet each other, or a given one. For boxes of surfaces, of which a plane across meets few. Coordinates
+/// are no NaN. Boxes are told of by their places in the list that they came in.
 class SortedBoxes {
  public:
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
   explicit SortedBoxes(const std::vector<FaceBox>& boxes);
 
-  /// Calls visit(a, b), a < b, for every two boxes that meet, each pair once, until it returns false; then returns false
-  /// too. The order depends on nothing but the boxes.
+  /// Calls visit(a, b), a < b, for every two boxes that meet, each pair once, until it returns false; then returns
+  /// false too. The order depends on nothing but the boxes.
   template <class Visit>
   bool for_each_pair(Visit visit) const {
     for (std::size_t i = 0; i < order_.size(); ++i)

@@ -56,6 +56,7 @@ const NearTriangles::Cell* NearTriangles::at(const Vector3d& x) const {
 const NearTriangles::Cell* NearTriangles::make(const Vector3d& center) const {
   constexpr double rounding = 1e-9;
   auto cell = std::make_unique<Cell>();
+  cell->middle = center;
   const double r = 0.5 * std::sqrt(3.0) * size_, signed_distance = nearest_(center), d = std::abs(signed_distance);
   cell->clearance = std::max(0.0, signed_distance * (1 - rounding) - r);
   if (d > 2 * r) return cell.release();
@@ -68,7 +69,10 @@ const NearTriangles::Cell* NearTriangles::make(const Vector3d& center) const {
     if (distance <= reach) order.emplace_back(distance, t);
   }
   std::sort(order.begin(), order.end());
-  for (const auto& [distance, t] : order) cell->candidates.push_back(balls_[t]);
+  for (const auto& [distance, t] : order) {
+    cell->candidates.push_back(balls_[t]);
+    cell->candidates.back().from_middle = distance * (1 - rounding);
+  }
   return cell.release();
 }
 

@@ -19,10 +19,12 @@ class NearTriangles {
     std::uint32_t triangle;
     Eigen::Vector3d center;  ///< of a ball that holds it
     double radius;
+    double from_middle = 0;  ///< at most its distance from the middle of the cell that it is listed in
   };
   struct Cell {
-    double clearance = 0;               ///< its points are outside and at least so far from the surface (cm); or 0
-    std::vector<Candidate> candidates;  ///< the nearest to the cell's middle first; none where they would be many
+    double clearance = 0;  ///< its points are outside and at least so far from the surface (cm); or 0
+    Eigen::Vector3d middle;
+    std::vector<Candidate> candidates;  ///< the nearest to the middle first; none where they would be many
   };
   /// Appends the triangles that may be within a distance (cm) of a point; more do no harm.
   using Find = std::function<void(const Eigen::Vector3d& x, double distance, std::vector<std::uint32_t>& found)>;

@@ -158,7 +158,9 @@ struct TriangleMeshDistance::Parts {
     Nearest best{0, {Vector3d::Zero(), on_face}};
     double least2 = std::numeric_limits<double>::infinity(), least = least2;
     const double rounding = 1e-12 * (x.cwiseAbs().maxCoeff() + box.sizes().maxCoeff());
-    for (const auto& [t, center, radius] : cell->candidates) {
+    const double off_middle = (x - cell->middle).norm() + rounding;
+    for (const auto& [t, center, radius, from_middle] : cell->candidates) {
+      if (from_middle > least + off_middle) break;
       const double apart = least + radius;
       if ((x - center).squaredNorm() >= apart * apart) continue;
       if (bounds[t].squared_distance(x, rounding) >= least2) continue;

@@ -173,15 +173,19 @@ void lift_films(Drop& drop, const std::vector<Solid>& solids, double time, doubl
 void stop_at_discs(Drop& drop, const std::vector<Solid>& solids, double time,
                    const std::function<Vector3d(std::uint32_t)>& before) {
   if (std::none_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.inflow.has_value(); })) return;
+  constexpr double rounding = 1e-9;
   const Eigen::AlignedBox3d box = bounding_box(drop);
   for (const Solid& solid : solids) {
     if (!solid.inflow || !solid.is_near(box, time, 0)) continue;
+    const double least_height = -rounding * solid.inflow->radius;
     for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
       if (drop.connectivity().degree(v) == 0 || is_colliding(drop.contact()[v])) continue;
       const Vector3d x = drop.positions().col(v);
       if (!solid.is_near(x, time, 0)) continue;
       const SolidContact contact = solid.query(x, time);
-      if (contact.distance < 0 && solid.query(before(v), time).distance >= 0) drop.positions().col(v) = contact.point;
+      if (contact.distance >= 0) continue;
+      const bool was_in_front = contact.normal.dot(before(v) - contact.point) >= least_height;
+      if (was_in_front) drop.positions().col(v) = contact.point;
     }
   }
 }

@@ -30,6 +30,7 @@ void lift_landed(Drop& drop, const std::vector<Solid>& solids, double time, cons
 
 /// Free vertices that came through a source's disc from in front of it, where `before` has them (cm, by row), stop on
 /// it: lift_films takes what is deep behind a disc for what passes there. Liquid that runs off a tilted disc does so.
+/// What comes past the rim from the side passes.
 /// Reads contact state and solids at `time` (s); writes positions (cm) of free vertices.
 void stop_at_discs(Drop& drop, const std::vector<Solid>& solids, double time,
                    const std::function<Eigen::Vector3d(std::uint32_t)>& before);

@@ -221,17 +221,21 @@ void calm_seam(Drop& drop, const std::vector<std::uint32_t>& seam) {
 /// restore_ledger; without the volume where giving it back makes a surface meet itself beside the seam. Sheets that lie
 /// on each other but for rounding do not even bear to be moved as they are: then it gives back momentum alone.
 void give_back(std::vector<Drop>& pieces, const Ledger& ledger, const MergeOptions& options) {
-  const std::vector<Drop> start = pieces;
+  std::vector<std::array<Eigen::Matrix3Xd, 2>> start;  // positions and velocities: nothing else changes
+  for (const Drop& piece : pieces) start.push_back({piece.positions(), piece.velocities()});
   const auto meets_itself = [&](const Drop& piece) {
     const WatchedRegion region = guarded_region(piece, options.remesh.band.edge_max);
     return !region.empty() && meet_each_other(view_of(piece), region.faces_of(piece));
   };
-  for (const bool with_volume : {true, false}) {
-    restore_ledger(pieces, ledger, with_volume);
-    if (std::none_of(pieces.begin(), pieces.end(), meets_itself)) return;
-    if (with_volume) pieces = start;
+  restore_ledger(pieces, ledger, true);
+  if (std::none_of(pieces.begin(), pieces.end(), meets_itself)) return;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    pieces[k].positions() = start[k][0];
+    pieces[k].velocities() = start[k][1];
   }
-  for (std::size_t k = 0; k < pieces.size(); ++k) pieces[k].positions() = start[k].positions();
+  restore_ledger(pieces, ledger, false);
+  if (std::none_of(pieces.begin(), pieces.end(), meets_itself)) return;
+  for (std::size_t k = 0; k < pieces.size(); ++k) pieces[k].positions() = start[k][0];
 }
 
 }  // namespace

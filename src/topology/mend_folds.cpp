@@ -2,6 +2,7 @@
 #include "boolean_seam.h"
 #include "fold_finder.h"
 #include "meniscus/geometry/rigid_motion.h"
+#include "meniscus/state/contact_line.h"
 #include "merge_parts.h"
 #include "sheet_guard.h"
 
@@ -81,9 +82,12 @@ void relax(Drop& drop, const std::vector<std::uint32_t>& vertices, const Watched
 /// Takes vertices of a drop back to where they were before the substep.
 class TakeBack {
  public:
-  TakeBack(Drop& drop, const LastSound& before, FoldFinder& finder)
+  /// What goes back to further than `edge_min` (cm) above the solid that it has just met is free again: else it would
+  /// be put onto the solid at the next substep, however short.
+  TakeBack(Drop& drop, const LastSound& before, FoldFinder& finder, double edge_min)
       : drop_(drop),
         finder_(finder),
+        edge_min_(edge_min),
         solid_velocity_(before.solid_velocity),
         before_(before.positions),
         sound_(carried_along(std::as_const(drop), before, velocity_)),
@@ -113,6 +117,7 @@ class TakeBack {
     for (const auto v : taken_) finder_.move(v);
   }
   const std::vector<std::uint32_t>& taken() const { return taken_; }
+  bool has_let_go() const { return has_let_go_; }
 
   /// The whole drop, whatever was done with what was taken back since, if that brings its volume nearer to the target.
   void take_all() {
@@ -140,10 +145,18 @@ class TakeBack {
                     meeting.end());
     return meeting;
   }
+  void let_go(std::uint32_t v) {
+    drop_.contact()[v] = Contact::free;
+    drop_.contact_solid()[v] = -1;
+    has_let_go_ = true;
+  }
   void take(std::uint32_t v) {
     if (is_back_[v] != 0 || drop_.connectivity().degree(v) == 0) return;
     is_back_[v] = 1;
     taken_.push_back(v);
+    if (is_colliding(drop_.contact()[v]) &&
+        drop_.contact_normals().col(v).dot(sound_.col(v) - drop_.positions().col(v)) > edge_min_)
+      let_go(v);
     drop_.positions().col(v) = sound_.col(v);
     if (is_colliding(drop_.contact()[v]))
       drop_.velocities().col(v) =  // else one that rushes into a fold does so again and again
@@ -156,6 +169,8 @@ class TakeBack {
 
   Drop& drop_;
   FoldFinder& finder_;
+  const double edge_min_;
+  bool has_let_go_ = false;
   RigidMotion velocity_;
   const Eigen::Vector3d solid_velocity_;
   const ConstColumns before_;
@@ -178,7 +193,8 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before,
   }
   Ledger ledger = measure_ledger(drop);
   std::optional<TakeBack> take_back;
-  if (before.positions.cols() == static_cast<Eigen::Index>(drop.num_rows())) take_back.emplace(drop, before, finder);
+  if (before.positions.cols() == static_cast<Eigen::Index>(drop.num_rows()))
+    take_back.emplace(drop, before, finder, options.remesh.band.edge_min);
   if (take_back) take_back->run(Folds::between_neighbours);  // no union mends these
   BooleanResult result;
   if (!finder.meeting().empty()) {
@@ -188,6 +204,7 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before,
   const std::vector<std::uint32_t> taken = take_back ? take_back->taken() : std::vector<std::uint32_t>();
   if (!taken.empty()) take_momentum(ledger, measure_ledger(drop));
   report.taken_back += taken.size();
+  if (take_back && take_back->has_let_go()) mark_contact_line(drop);
   if (!result.ok() || result.outcome != BooleanOutcome::crossing) {
     if (taken.empty())
       count_down_watch(drop, options.remesh.band);

@@ -3,6 +3,7 @@
 #include "meniscus/topology/face_changes.h"
 
 #include "meniscus/geometry/shapes.h"
+#include "meniscus/state/contact_line.h"
 #include "meniscus/state/ledger.h"
 #include "meniscus/topology/self_union.h"
 #include "meniscus/topology/split.h"
@@ -222,6 +223,35 @@ TEST(MendFolds, WhatIsTakenBackGoesAlongWithTheSolidThatHoldsIt) {
   EXPECT_GT(report.taken_back, 0u);
   EXPECT_LT(((drop.positions() - before).colwise() - way).colwise().norm().maxCoeff(), 0.2);
   EXPECT_NEAR((drop.velocities().col(v) - 0.5 * (velocity + Vector3d(0, 3, 0))).norm(), 0, 1e-12);
+}
+
+TEST(MendFolds, WhatIsTakenBackToAboveTheSolidThatItHasJustMetIsFreeAgain) {
+  // The ball came down by 0.4 in a substep and lies flat on the plane z = -1, where a vertex folds over its neighbours.
+  Drop drop = ball({0, 0, 0}, 1, {0, 0, -3});
+  const Eigen::Matrix3Xd before = drop.positions();
+  drop.positions().row(2).array() -= 0.4;
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) {
+    if (drop.positions()(2, i) >= -1) continue;
+    drop.positions()(2, i) = -1;
+    drop.contact()[i] = Contact::wetted;
+    drop.contact_solid()[i] = 0;
+    drop.contact_normals().col(i) = Vector3d::UnitZ();
+  }
+  mark_contact_line(drop);
+  std::uint32_t v = 0;
+  while (!(before(2, v) < -0.7 && before(2, v) > -0.85)) ++v;
+  const std::uint32_t w = drop.connectivity().ring(v).neighbour[0];
+  const Vector3d side = drop.positions().col(w) - drop.positions().col(v);
+  drop.positions().col(v) += 2.2 * side;
+  ASSERT_NE(judge::defect(drop), "");
+  for (std::uint32_t i = 0; i < drop.num_rows(); ++i) drop.seam_watch()[i] = 5;
+  Remesher remesher;
+  MergeReport report;
+  EXPECT_FALSE(mend_folds(drop, {before}, options_for(0.08, 0.24), remesher, report).has_value());
+  EXPECT_EQ(judge::defect(drop), "");
+  EXPECT_EQ(drop.contact()[v], Contact::free);
+  EXPECT_EQ(drop.contact_solid()[v], -1);
+  EXPECT_GT(drop.positions()(2, v), -1);
 }
 
 TEST(MendFolds, ACalmDropIsNotWatched) {

@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -52,8 +53,11 @@ VolumeMoments volume_moments(const Drop& drop) {
     const double tetrahedron = p.dot(q.cross(r)) / 6;
     moments.volume += tetrahedron;
     first += tetrahedron / 4 * s;
-    second += tetrahedron / 20 * (p * p.transpose() + q * q.transpose() + r * r.transpose() + s * s.transpose());
+    for (int i = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j)
+        second(i, j) += tetrahedron / 20 * (p[i] * p[j] + q[i] * q[j] + r[i] * r[j] + s[i] * s[j]);
   });
+  second.triangularView<Eigen::StrictlyLower>() = second.transpose();
   if (moments.volume == 0) return moments;
   const Vector3d mean = first / moments.volume;
   moments.center = origin + mean;
@@ -66,34 +70,43 @@ Vector3d fitted_rotation(const Drop& drop, const SurfaceGeometry& geometry) {
   return fit_rigid_motion(drop.positions(), drop.velocities(), geometry).rotation;
 }
 
-/// Flux and momentum about `center` of a velocity field, as one vector (flux, P).
-template <class Field>
-Vector4d flux_and_momentum(const Drop& drop, const Vector3d& center, Field u) {
+/// Flux and momentum about `center` of n velocity fields, as one vector (flux, P) each: fields(i) is what they are at
+/// vertex i.
+template <std::size_t n, class Fields>
+std::array<Vector4d, n> flux_and_momentum(const Drop& drop, const Vector3d& center, Fields fields) {
   const ConstColumns x = drop.positions();
-  Vector4d sum = Vector4d::Zero();
+  std::array<Vector4d, n> sums;
+  sums.fill(Vector4d::Zero());
   for_each_face(drop, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     const Vector3d p = x.col(i), q = x.col(j), r = x.col(k);
-    const Vector3d area = 0.5 * (q - p).cross(r - p);
-    const double flux_i = u(i).dot(area), flux_j = u(j).dot(area), flux_k = u(k).dot(area);
-    const double flux = flux_i + flux_j + flux_k;
-    sum[0] += flux / 3;
-    sum.tail<3>() +=
-        ((flux + flux_i) * (p - center) + (flux + flux_j) * (q - center) + (flux + flux_k) * (r - center)) / 12;
+    const Vector3d area = 0.5 * (q - p).cross(r - p), from_p = p - center, from_q = q - center, from_r = r - center;
+    const std::array<Vector3d, n> u = fields(i), v = fields(j), w = fields(k);
+    for (std::size_t f = 0; f < n; ++f) {
+      const double flux_i = u[f].dot(area), flux_j = v[f].dot(area), flux_k = w[f].dot(area);
+      const double flux = flux_i + flux_j + flux_k;
+      sums[f][0] += flux / 3;
+      sums[f].template tail<3>() +=
+          ((flux + flux_i) * from_p + (flux + flux_j) * from_q + (flux + flux_k) * from_r) / 12;
+    }
   });
-  return sum;
+  return sums;
+}
+
+Vector4d flux_and_momentum(const Drop& drop, const Vector3d& center) {
+  const ConstColumns u = drop.velocities();
+  return flux_and_momentum<1>(drop, center, [&](std::uint32_t i) { return std::array<Vector3d, 1>{u.col(i)}; })[0];
 }
 
 /// u += c + s n off solids, so that the flux vanishes and the momentum about `center` is the wanted one.
 void fit_momentum(Drop& drop, const SurfaceGeometry& geometry, const Vector3d& center, const Vector3d& momentum) {
   Columns u = drop.velocities();
-  const auto basis = [&](int k) {
-    return [&drop, &geometry, k](std::uint32_t i) -> Vector3d {
-      if (!is_off_solids(drop, i)) return Vector3d::Zero();
-      return k < 3 ? Vector3d(Vector3d::Unit(k)) : geometry.normal(i);
-    };
+  const auto basis = [&](std::uint32_t i) -> std::array<Vector3d, 4> {
+    if (!is_off_solids(drop, i)) return {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+    return {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ(), geometry.normal(i)};
   };
+  const std::array<Vector4d, 4> columns = flux_and_momentum<4>(drop, center, basis);
   Matrix4d matrix;
-  for (int k = 0; k < 4; ++k) matrix.col(k) = flux_and_momentum(drop, center, basis(k));
+  for (int k = 0; k < 4; ++k) matrix.col(k) = columns[static_cast<std::size_t>(k)];
   // In units in which a sphere of radius 1 gives numbers near 1.
   const double length = std::cbrt(geometry.volume());
   const Vector4d scale(length * length, length * length * length, length * length * length, length * length * length);
@@ -102,7 +115,7 @@ void fit_momentum(Drop& drop, const SurfaceGeometry& geometry, const Vector3d& c
   for (int round = 0; round < 2; ++round) {  // the second takes the rounding of the first
     Vector4d wanted;
     wanted << 0, momentum;
-    wanted -= flux_and_momentum(drop, center, [&](std::uint32_t i) -> Vector3d { return u.col(i); });
+    wanted -= flux_and_momentum(drop, center);
     const Vector4d c = solver.solve(wanted.cwiseQuotient(scale));
     for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
       if (is_off_solids(drop, i)) u.col(i) += c.head<3>() + c[3] * geometry.normal(i);
@@ -181,11 +194,11 @@ Ledger& Ledger::operator+=(const Ledger& other) {
   return *this;
 }
 
-Ledger measure_ledger(const Drop& drop) {
+namespace {
+
+Ledger measure_ledger(const Drop& drop, const SurfaceGeometry& geometry) {
   const VolumeMoments moments = volume_moments(drop);
   if (!(moments.volume > 0)) return {};
-  SurfaceGeometry geometry;
-  geometry.compute(drop.positions(), drop.connectivity());
   Ledger ledger;
   ledger.volume = moments.volume;
   ledger.moment = moments.volume * moments.center;
@@ -194,16 +207,15 @@ Ledger measure_ledger(const Drop& drop) {
   return ledger;
 }
 
-void restore_ledger(Drop& drop, const Ledger& ledger, bool with_volume) {
+/// `geometry`: the drop's as it is.
+void restore_ledger(Drop& drop, SurfaceGeometry& geometry, const Ledger& ledger, bool with_volume) {
   if (!(ledger.volume > 0)) return;
-  SurfaceGeometry geometry;
   if (with_volume) {
-    geometry.compute(std::as_const(drop).positions(), drop.connectivity());
     constexpr double unbounded = std::numeric_limits<double>::infinity();
     offset_to_volume(drop, geometry, free_area(drop, geometry), ledger.volume, -unbounded, unbounded);
   }
   if (touches_solid(drop)) return;
-  geometry.compute(std::as_const(drop).positions(), drop.connectivity());
+  if (with_volume) geometry.compute(std::as_const(drop).positions(), drop.connectivity());
   VolumeMoments moments = volume_moments(drop);
   if (!(moments.volume > 0)) return;
   const Vector3d shift = ledger.center() - moments.center;
@@ -226,11 +238,28 @@ void restore_ledger(Drop& drop, const Ledger& ledger, bool with_volume) {
   if (top_speed(drop, mean) > fastest) drop.velocities() = before;
 }
 
+SurfaceGeometry geometry_of(const Drop& drop) {
+  SurfaceGeometry geometry;
+  geometry.compute(drop.positions(), drop.connectivity());
+  return geometry;
+}
+
+}  // namespace
+
+Ledger measure_ledger(const Drop& drop) { return measure_ledger(drop, geometry_of(drop)); }
+
+void restore_ledger(Drop& drop, const Ledger& ledger, bool with_volume) {
+  SurfaceGeometry geometry = geometry_of(drop);
+  restore_ledger(drop, geometry, ledger, with_volume);
+}
+
 void restore_ledger(std::vector<Drop>& pieces, const Ledger& ledger, bool with_volume) {
+  std::vector<SurfaceGeometry> geometries;
   std::vector<Ledger> own;
   Ledger sum;
   for (const Drop& piece : pieces) {
-    own.push_back(measure_ledger(piece));
+    geometries.push_back(geometry_of(piece));
+    own.push_back(measure_ledger(piece, geometries.back()));
     sum += own.back();
   }
   for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -239,16 +268,14 @@ void restore_ledger(std::vector<Drop>& pieces, const Ledger& ledger, bool with_v
     own[k].moment += share * (ledger.moment - sum.moment);
     own[k].momentum += share * (ledger.momentum - sum.momentum);
     own[k].angular_momentum += share * (ledger.angular_momentum - sum.angular_momentum);
-    restore_ledger(pieces[k], own[k], with_volume);
+    restore_ledger(pieces[k], geometries[k], own[k], with_volume);
   }
 }
 
 Vector3d volume_centroid(const Drop& drop) { return volume_moments(drop).center; }
 
 Vector3d surface_momentum(const Drop& drop, double density, const Vector3d& c) {
-  const ConstColumns u = drop.velocities();
-  const Vector4d sum = flux_and_momentum(drop, c, [&](std::uint32_t i) -> Vector3d { return u.col(i); });
-  return density * sum.tail<3>();
+  return density * flux_and_momentum(drop, c).tail<3>();
 }
 
 }  // namespace meniscus

@@ -2,7 +2,6 @@
 #include "fold_finder.h"
 
 #include "placed_face.h"
-#include "sorted_boxes.h"
 
 #include <algorithm>
 
@@ -21,13 +20,13 @@ std::vector<PlacedTriangle> placed_faces(const MeshView& mesh, const std::vector
 FoldFinder::FoldFinder(const Drop& drop, std::vector<FaceBox> faces)
     : drop_(drop),
       faces_(std::move(faces)),
+      boxes_(faces_),
       place_(drop.connectivity().triangles().size(), none),
       has_moved_(faces_.size(), 0),
       is_waiting_(faces_.size(), 0) {
   const std::vector<PlacedTriangle> placed = placed_faces(view_of(drop_), faces_);
   for (std::uint32_t k = 0; k < faces_.size(); ++k) place_[faces_[k].face] = k;
-  const auto meeting =
-      SortedBoxes(faces_).pairs_if([&](std::uint32_t a, std::uint32_t b) { return meet(placed[a], placed[b]); });
+  const auto meeting = boxes_.pairs_if([&](std::uint32_t a, std::uint32_t b) { return meet(placed[a], placed[b]); });
   for (const auto& [a, b] : meeting)
     meeting_.push_back({std::min(faces_[a].face, faces_[b].face), std::max(faces_[a].face, faces_[b].face)});
   std::sort(meeting_.begin(), meeting_.end());
@@ -64,10 +63,9 @@ void FoldFinder::add_faces_near_waiting() {
   for (const FaceBox& near : faces_in(view_of(drop_), box)) place_of(near.face);
 }
 
-/// The grid knows faces where they were at first; those that have moved since, or are new, are in one of their own.
+/// The boxes are where faces were at first; those that have moved since, or are new, are looked for among themselves.
 void FoldFinder::look_again() {
   add_faces_near_waiting();
-  if (!grid_) grid_.emplace(faces_);
   const MeshView mesh = view_of(drop_);
   const auto waits = [&](std::uint32_t face) { return is_waiting_[place_[face]] != 0; };
   meeting_.erase(
@@ -76,19 +74,21 @@ void FoldFinder::look_again() {
   std::vector<FaceBox> moved;
   for (std::uint32_t k = 0; k < faces_.size(); ++k)
     if (has_moved_[k] != 0) moved.push_back({box_now(faces_[k].face), faces_[k].face});
-  const FaceGrid moved_grid(moved);
+  const SortedBoxes moved_boxes(moved);
   for (const std::uint32_t place : waiting_) {
     const std::uint32_t f = faces_[place].face;
     const PlacedTriangle placed = placed_face(mesh, f);
     const auto test = [&](std::uint32_t g) {
       if (meet(placed, placed_face(mesh, g))) meeting_.push_back({std::min(f, g), std::max(f, g)});
-      return true;
     };
     const Eigen::AlignedBox3d box = placed.box();
-    grid_->for_each_meeting(box, [&](const FaceBox& g) { return has_moved_[place_[g.face]] != 0 || test(g.face); });
-    moved_grid.for_each_meeting(box, [&](const FaceBox& g) {
-      const bool is_seen_from_there = waits(g.face) && g.face < f;
-      return g.face == f || is_seen_from_there || test(g.face);
+    boxes_.for_each_meeting(box, [&](std::uint32_t k) {
+      if (has_moved_[k] == 0) test(faces_[k].face);
+    });
+    moved_boxes.for_each_meeting(box, [&](std::uint32_t k) {
+      const std::uint32_t g = moved[k].face;
+      const bool is_seen_from_there = waits(g) && g < f;
+      if (g != f && !is_seen_from_there) test(g);
     });
   }
   for (const std::uint32_t place : waiting_) is_waiting_[place] = 0;

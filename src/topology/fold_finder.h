@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "face_grid.h"
 #include "meniscus/state/drop.h"
+#include "sorted_boxes.h"
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace meniscus {
@@ -28,7 +27,7 @@ class FoldFinder {
  private:
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-  /// Of a face, which belongs to the list from then on; the grid does not know it.
+  /// Of a face, which belongs to the list from then on.
   std::uint32_t place_of(std::uint32_t face);
   void add_faces_near_waiting();
   void look_again();
@@ -36,9 +35,9 @@ class FoldFinder {
 
   const Drop& drop_;
   std::vector<FaceBox> faces_;                        // where they were at first
-  std::optional<FaceGrid> grid_;                      // from the first move on
+  const SortedBoxes boxes_;                           // theirs, without those that have joined since
   std::vector<std::uint32_t> place_;                  // of a face in the list
-  std::vector<std::uint8_t> has_moved_, is_waiting_;  // has_moved_: or is not in the grid
+  std::vector<std::uint8_t> has_moved_, is_waiting_;  // has_moved_: or has joined since
   std::vector<std::uint32_t> waiting_;                // places of faces that have moved since the last look
   std::vector<Pair> meeting_;
 };

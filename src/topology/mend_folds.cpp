@@ -44,8 +44,9 @@ constexpr double most_left_off = 0.05;
 void take_momentum(Ledger& ledger, const Ledger& after) {
   if (!(after.volume > 0)) return;
   const double share = ledger.volume / after.volume;
+  const Eigen::Vector3d spin = after.angular_momentum - after.center().cross(after.momentum);
   ledger.momentum = share * after.momentum;
-  ledger.angular_momentum = share * after.angular_momentum;
+  ledger.angular_momentum = ledger.center().cross(ledger.momentum) + share * spin;
 }
 
 enum class Folds { between_neighbours, all };

@@ -181,7 +181,8 @@ TEST(MendFolds, TakesBackWhatFoldsOverItsNeighbours) {
 }
 
 TEST(MendFolds, MomentumOfWhatIsTakenBackIsGivenToNobody) {
-  Drop drop = ball({0, 0, 0}, 1, {1, 0, 0});
+  const Vector3d velocity(0, 100, 0);
+  Drop drop = ball({0, 0, 0}, 1, velocity);
   const Eigen::Matrix3Xd before = drop.positions();
   const std::uint32_t v = 40, w = drop.connectivity().ring(v).neighbour[0];
   const Vector3d flight = 2.2 * (before.col(w) - before.col(v));
@@ -196,8 +197,7 @@ TEST(MendFolds, MomentumOfWhatIsTakenBackIsGivenToNobody) {
   const Vector3d there = before.col(v);
   double fastest = 0;
   for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-    if (before.col(i).dot(there) < 0)
-      fastest = std::max(fastest, (drop.velocities().col(i) - Vector3d(1, 0, 0)).norm());
+    if (before.col(i).dot(there) < 0) fastest = std::max(fastest, (drop.velocities().col(i) - velocity).norm());
   EXPECT_LT(fastest, 0.1);
 }
 

@@ -39,16 +39,6 @@ constexpr double largest_volume_error = 0.2;
 /// else it would go further off with every substep.
 constexpr double most_left_off = 0.05;
 
-/// What was taken back rushed into a fold and was stopped: its momentum is given to nobody. Each mending would make the
-/// rest of a torn film faster, up to 40,000 cm/s (the drop's velocity as a whole is kept from step to step).
-void take_momentum(Ledger& ledger, const Ledger& after) {
-  if (!(after.volume > 0)) return;
-  const double share = ledger.volume / after.volume;
-  const Eigen::Vector3d spin = after.angular_momentum - after.center().cross(after.momentum);
-  ledger.momentum = share * after.momentum;
-  ledger.angular_momentum = ledger.center().cross(ledger.momentum) + share * spin;
-}
-
 enum class Folds { between_neighbours, all };
 
 /// Moves a vertex halfway to the mean of its neighbours, or less, if its faces then meet nothing.
@@ -132,6 +122,7 @@ class TakeBack {
       take(v);
       if (is_back_[v] != 0) drop_.positions().col(v) = sound_.col(v);
     }
+    if (has_let_go_) mark_contact_line(drop_);
   }
 
  private:
@@ -203,7 +194,6 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before,
     if (!result.ok() && take_back) take_back->run(Folds::all);
   }
   const std::vector<std::uint32_t> taken = take_back ? take_back->taken() : std::vector<std::uint32_t>();
-  if (!taken.empty()) take_momentum(ledger, measure_ledger(drop));
   report.taken_back += taken.size();
   if (take_back && take_back->has_let_go()) mark_contact_line(drop);
   if (!result.ok() || result.outcome != BooleanOutcome::crossing) {
@@ -215,6 +205,7 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before,
     const bool is_measurable = std::abs(ledger.volume / drop.target_volume() - 1) < largest_volume_error;
     if (!taken.empty() && is_measurable) {
       offset_around(drop, taken, ledger.volume, region);
+      take_momentum(ledger, measure_ledger(drop));
       restore_ledger(drop, ledger, false);
     }
     if (!taken.empty() && std::abs(drop.volume() / drop.target_volume() - 1) > most_left_off) take_back->take_all();
@@ -222,7 +213,7 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before,
   }
   ++report.folds;
   report.overlap += ledger.volume - result.volume;
-  return rebuild(drop, drop, result, ledger, drop.target_volume(), options, remesher, report);
+  return rebuild(drop, drop, result, ledger, taken.empty(), drop.target_volume(), options, remesher, report);
 }
 
 }  // namespace meniscus

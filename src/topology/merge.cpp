@@ -240,7 +240,15 @@ void give_back(std::vector<Drop>& pieces, const Ledger& ledger, const MergeOptio
 
 }  // namespace
 
-std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, const Ledger& ledger,
+void take_momentum(Ledger& ledger, const Ledger& after) {
+  if (!(after.volume > 0)) return;
+  const double share = ledger.volume / after.volume;
+  const Vector3d spin = after.angular_momentum - after.center().cross(after.momentum);
+  ledger.momentum = share * after.momentum;
+  ledger.angular_momentum = ledger.center().cross(ledger.momentum) + share * spin;
+}
+
+std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, Ledger ledger, bool keeps_momentum,
                           double target_volume, const MergeOptions& options, Remesher& remesher, MergeReport& report) {
   const double speck = least_volume(options.remesh.band.edge_min);
   boolean_parts::drop_specks(result, speck);
@@ -270,6 +278,11 @@ std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, co
   if (pieces.size() > 1)
     for (Drop& piece : pieces) calm_torn_piece(piece);
   if (!pieces.empty()) pieces.front().set_inflow(a.inflow() + (&a == &b ? 0 : b.inflow()));
+  if (!keeps_momentum) {
+    Ledger own;
+    for (const Drop& piece : pieces) own += measure_ledger(piece);
+    take_momentum(ledger, own);
+  }
   give_back(pieces, ledger, options);
   return pieces;
 }
@@ -299,7 +312,7 @@ std::optional<std::vector<Drop>> merge_drops(const Drop& a, const Drop& b, const
   ledger += measure_ledger(b);
   ++report.merges;
   report.overlap += ledger.volume - result.volume;
-  return rebuild(a, b, result, ledger, a.target_volume() + b.target_volume(), options, remesher, report);
+  return rebuild(a, b, result, ledger, true, a.target_volume() + b.target_volume(), options, remesher, report);
 }
 
 }  // namespace meniscus

@@ -18,9 +18,14 @@ inline constexpr std::uint8_t violent_watched_calls = 5;
 /// Counts the watch of every vertex down; it does not end where another sheet of the surface is close.
 void count_down_watch(Drop& drop, const EdgeBand& band);
 
+/// What was taken back rushed into a fold and was stopped: its momentum is given to nobody. Each mending would make the
+/// rest of a torn film faster, up to 40,000 cm/s (the drop's velocity as a whole is kept from step to step). Sets the
+/// ledger's momenta, about its own centre, to those `after`, of a surface that is sound again.
+void take_momentum(Ledger& ledger, const Ledger& after);
+
 /// The drop that a Boolean result of a and b (or of a with itself) describes, its seam remeshed, with the given
-/// ledger and target volume.
-std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, const Ledger& ledger,
+/// ledger and target volume; with momenta of its own unless it `keeps_momentum`: see take_momentum.
+std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, Ledger ledger, bool keeps_momentum,
                           double target_volume, const MergeOptions& options, Remesher& remesher, MergeReport& report);
 
 /// Moves the free vertices that are not `held` along their normals until the drop encloses `volume` (cm^3), those near

@@ -79,7 +79,8 @@ struct LastSound {
 /// vertices that make the surface meet itself go back to where they were when the drop was last sound (`before`),
 /// carried along by its rigid motion and with its velocity; more around them if that is not enough. Then they are
 /// smoothed as far as nothing meets, so that the next step does not end the same way. A drop on a solid is carried
-/// along by that; of one off solids centre of mass and momenta stay.
+/// along by that, and vertices that go back to more than edge_min above it are free again; of one off solids the centre
+/// of mass stays, and momenta but for what was taken back: that was stopped, and its momentum is given to nobody.
 std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before, const MergeOptions& options,
                                             Remesher& remesher, MergeReport& report);
 

@@ -205,15 +205,18 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before,
     const bool is_measurable = std::abs(ledger.volume / drop.target_volume() - 1) < largest_volume_error;
     if (!taken.empty() && is_measurable) {
       offset_around(drop, taken, ledger.volume, region);
-      take_momentum(ledger, measure_ledger(drop));
-      restore_ledger(drop, ledger, false);
+      if (!touches_solid(drop)) {
+        take_momentum(ledger, measure_ledger(drop));
+        restore_ledger(drop, ledger, false);
+      }
     }
     if (!taken.empty() && std::abs(drop.volume() / drop.target_volume() - 1) > most_left_off) take_back->take_all();
     return std::nullopt;
   }
   ++report.folds;
   report.overlap += ledger.volume - result.volume;
-  return rebuild(drop, drop, result, ledger, taken.empty(), drop.target_volume(), options, remesher, report);
+  const Momentum momentum = taken.empty() ? Momentum::of_ledger : Momentum::of_surface;
+  return rebuild(drop, drop, result, ledger, momentum, drop.target_volume(), options, remesher, report);
 }
 
 }  // namespace meniscus

@@ -227,15 +227,14 @@ void give_back(std::vector<Drop>& pieces, const Ledger& ledger, const MergeOptio
     const WatchedRegion region = guarded_region(piece, options.remesh.band.edge_max);
     return !region.empty() && meet_each_other(view_of(piece), region.faces_of(piece));
   };
-  restore_ledger(pieces, ledger, true);
-  if (std::none_of(pieces.begin(), pieces.end(), meets_itself)) return;
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    pieces[k].positions() = start[k][0];
-    pieces[k].velocities() = start[k][1];
+  for (const bool with_volume : {true, false}) {
+    restore_ledger(pieces, ledger, with_volume);
+    if (std::none_of(pieces.begin(), pieces.end(), meets_itself)) return;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      pieces[k].positions() = start[k][0];
+      if (with_volume) pieces[k].velocities() = start[k][1];
+    }
   }
-  restore_ledger(pieces, ledger, false);
-  if (std::none_of(pieces.begin(), pieces.end(), meets_itself)) return;
-  for (std::size_t k = 0; k < pieces.size(); ++k) pieces[k].positions() = start[k][0];
 }
 
 }  // namespace
@@ -248,7 +247,7 @@ void take_momentum(Ledger& ledger, const Ledger& after) {
   ledger.angular_momentum = ledger.center().cross(ledger.momentum) + share * spin;
 }
 
-std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, Ledger ledger, bool keeps_momentum,
+std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, Ledger ledger, Momentum momentum,
                           double target_volume, const MergeOptions& options, Remesher& remesher, MergeReport& report) {
   const double speck = least_volume(options.remesh.band.edge_min);
   boolean_parts::drop_specks(result, speck);
@@ -278,7 +277,7 @@ std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, Le
   if (pieces.size() > 1)
     for (Drop& piece : pieces) calm_torn_piece(piece);
   if (!pieces.empty()) pieces.front().set_inflow(a.inflow() + (&a == &b ? 0 : b.inflow()));
-  if (!keeps_momentum) {
+  if (momentum == Momentum::of_surface) {
     Ledger own;
     for (const Drop& piece : pieces) own += measure_ledger(piece);
     take_momentum(ledger, own);
@@ -312,7 +311,8 @@ std::optional<std::vector<Drop>> merge_drops(const Drop& a, const Drop& b, const
   ledger += measure_ledger(b);
   ++report.merges;
   report.overlap += ledger.volume - result.volume;
-  return rebuild(a, b, result, ledger, true, a.target_volume() + b.target_volume(), options, remesher, report);
+  return rebuild(a, b, result, ledger, Momentum::of_ledger, a.target_volume() + b.target_volume(), options, remesher,
+                 report);
 }
 
 }  // namespace meniscus

@@ -23,9 +23,11 @@ void count_down_watch(Drop& drop, const EdgeBand& band);
 /// ledger's momenta, about its own centre, to those `after`, of a surface that is sound again.
 void take_momentum(Ledger& ledger, const Ledger& after);
 
+enum class Momentum { of_ledger, of_surface };
+
 /// The drop that a Boolean result of a and b (or of a with itself) describes, its seam remeshed, with the given
-/// ledger and target volume; with momenta of its own unless it `keeps_momentum`: see take_momentum.
-std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, Ledger ledger, bool keeps_momentum,
+/// ledger and target volume; Momentum::of_surface: with momenta of its own, see take_momentum.
+std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, Ledger ledger, Momentum momentum,
                           double target_volume, const MergeOptions& options, Remesher& remesher, MergeReport& report);
 
 /// Moves the free vertices that are not `held` along their normals until the drop encloses `volume` (cm^3), those near

@@ -64,13 +64,13 @@ WatchedRegion::WatchedRegion(const Drop& drop, double reach) {
   while (fit() > most_cells) per_length_ /= 2;
   cells_.assign(static_cast<std::size_t>(size_.prod()), outside);
   for_each_watched([&](const Vector3d& point) {
-    const Eigen::Array3d home = (point.array() * per_length_).floor() - low_;
+    const Eigen::Array3d home = cell(point);
     if (std::exchange(cells_[index(home)], watched) == watched) return;
     for (int i = -1; i <= 1; ++i)
       for (int j = -1; j <= 1; ++j)
         for (int k = -1; k <= 1; ++k) {
-          std::uint8_t& cell = cells_[index(home + Eigen::Array3d(i, j, k))];
-          cell = std::max(cell, beside_watched);
+          std::uint8_t& near = cells_[index(home + Eigen::Array3d(i, j, k))];
+          near = std::max(near, beside_watched);
         }
   });
 }

@@ -39,7 +39,7 @@ class WatchedRegion {
   /// Whether x is near a watched vertex.
   bool covers(const Eigen::Vector3d& x) const {
     if (cells_.empty()) return is_everywhere_;
-    const Eigen::Array3d at = (x.array() * per_length_).floor() - low_;
+    const Eigen::Array3d at = cell(x);
     return ((at >= 0) && (at < size_)).all() && cells_[index(at)] != 0;
   }
   /// Any of its corners is, or it reaches into the slab.
@@ -50,8 +50,9 @@ class WatchedRegion {
   std::vector<FaceBox> faces_of(const Drop& drop) const;
 
  private:
-  std::size_t index(const Eigen::Array3d& cell) const {
-    return static_cast<std::size_t>(cell[0] + size_[0] * (cell[1] + size_[1] * cell[2]));
+  Eigen::Array3d cell(const Eigen::Vector3d& x) const { return (x.array() * per_length_).floor() - low_; }
+  std::size_t index(const Eigen::Array3d& at) const {
+    return static_cast<std::size_t>(at[0] + size_[0] * (at[1] + size_[1] * at[2]));
   }
 
   bool is_everywhere_ = false;

@@ -35,7 +35,7 @@ void for_each_chunk(std::size_t rows, const Body& body) {
   });
 }
 
-/// The sum of body(begin, end) over the chunks of [0, rows). Allocates nothing.
+/// The sum of body(begin, end) over the chunks of [0, rows). Allocates nothing but what Sum does.
 template <class Sum, class Body>
 Sum sum_over_chunks(std::size_t rows, const Sum& zero, const Body& body, std::size_t least = chunks::least_rows) {
   const std::size_t count = chunks::count(rows, least);

@@ -9,7 +9,6 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,16 +16,7 @@ namespace meniscus {
 namespace {
 
 using Eigen::Matrix3d;
-using Eigen::Matrix4d;
 using Eigen::Vector3d;
-using Eigen::Vector4d;
-
-/// Calls visit(a, b, c) for each face that is there.
-template <class Visit>
-void for_each_face(const Drop& drop, Visit visit) {
-  for (const auto& [a, b, c] : drop.connectivity().triangles())
-    if (a != Connectivity::removed) visit(a, b, c);
-}
 
 /// Where positions are measured from, so that a drop far from the origin loses no digits.
 Vector3d reference_point(const Drop& drop) {
@@ -35,6 +25,9 @@ Vector3d reference_point(const Drop& drop) {
   return Vector3d::Zero();
 }
 
+FourVectors four_times(const Vector3d& v) { return {constant(v.x()), constant(v.y()), constant(v.z())}; }
+Vector3d sum_of(const FourVectors& v) { return {sum(v.x), sum(v.y), sum(v.z)}; }
+
 /// Integrals over the enclosed volume.
 struct VolumeMoments {
   double volume = 0;
@@ -42,25 +35,56 @@ struct VolumeMoments {
   Matrix3d inertia = Matrix3d::Zero();  ///< about the centre, density 1
 };
 
+/// Sums over tetrahedra between the reference point and faces, of the volume, its first and its second moments.
+struct VolumeSums {
+  double volume = 0;
+  Vector3d first = Vector3d::Zero(), squares = Vector3d::Zero();  // squares: xx, yy, zz
+  Vector3d products = Vector3d::Zero();                           // yz, zx, xy
+
+  VolumeSums& operator+=(const VolumeSums& other) {
+    volume += other.volume;
+    first += other.first;
+    squares += other.squares;
+    products += other.products;
+    return *this;
+  }
+};
+
 VolumeMoments volume_moments(const Drop& drop) {
+  const auto& triangles = drop.connectivity().triangles();
   const ConstColumns x = drop.positions();
-  const Vector3d origin = reference_point(drop);
-  VolumeMoments moments;
-  Vector3d first = Vector3d::Zero();
-  Matrix3d second = Matrix3d::Zero();
-  for_each_face(drop, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const Vector3d p = x.col(a) - origin, q = x.col(b) - origin, r = x.col(c) - origin, s = p + q + r;
-    const double tetrahedron = p.dot(q.cross(r)) / 6;
-    moments.volume += tetrahedron;
-    first += tetrahedron / 4 * s;
-    for (int i = 0; i < 3; ++i)
-      for (int j = i; j < 3; ++j)
-        second(i, j) += tetrahedron / 20 * (p[i] * p[j] + q[i] * q[j] + r[i] * r[j] + s[i] * s[j]);
+  const Vector3d reference = reference_point(drop);
+  const FourVectors origin = four_times(reference);
+  const VolumeSums sums = sum_over_chunks(triangles.size(), VolumeSums{}, [&](std::size_t begin, std::size_t end) {
+    Four volume{};
+    FourVectors first{}, squares{}, products{};
+    for (std::size_t k = begin; k < end; k += 4) {
+      const FourTriangles four(triangles, k, end);
+      const FourVectors p = four.corner(x.data(), 0) - origin, q = four.corner(x.data(), 1) - origin,
+                        r = four.corner(x.data(), 2) - origin;
+      const FourVectors s{p.x + q.x + r.x, p.y + q.y + r.y, p.z + q.z + r.z};
+      const Four six = p.dot(q.cross(r));
+      volume += six;
+      first.x += six * s.x;
+      first.y += six * s.y;
+      first.z += six * s.z;
+      squares.x += six * (p.x * p.x + q.x * q.x + r.x * r.x + s.x * s.x);
+      squares.y += six * (p.y * p.y + q.y * q.y + r.y * r.y + s.y * s.y);
+      squares.z += six * (p.z * p.z + q.z * q.z + r.z * r.z + s.z * s.z);
+      products.x += six * (p.y * p.z + q.y * q.z + r.y * r.z + s.y * s.z);
+      products.y += six * (p.z * p.x + q.z * q.x + r.z * r.x + s.z * s.x);
+      products.z += six * (p.x * p.y + q.x * q.y + r.x * r.y + s.x * s.y);
+    }
+    return VolumeSums{sum(volume) / 6, sum_of(first) / 24, sum_of(squares) / 120, sum_of(products) / 120};
   });
-  second.triangularView<Eigen::StrictlyLower>() = second.transpose();
+  VolumeMoments moments;
+  moments.volume = sums.volume;
   if (moments.volume == 0) return moments;
-  const Vector3d mean = first / moments.volume;
-  moments.center = origin + mean;
+  const Vector3d mean = sums.first / moments.volume;
+  moments.center = reference + mean;
+  const Vector3d &a = sums.squares, &b = sums.products;
+  Matrix3d second;
+  second << a.x(), b.z(), b.y(), b.z(), a.y(), b.x(), b.y(), b.x(), a.z();
   second -= moments.volume * mean * mean.transpose();
   moments.inertia = second.trace() * Matrix3d::Identity() - second;
   return moments;
@@ -70,73 +94,12 @@ Vector3d fitted_rotation(const Drop& drop, const SurfaceGeometry& geometry) {
   return fit_rigid_motion(drop.positions(), drop.velocities(), geometry).rotation;
 }
 
-/// Flux and momentum about `center` of n velocity fields, as one vector (flux, P) each: fields(i) is what they are at
-/// vertex i.
-template <std::size_t n, class Fields>
-std::array<Vector4d, n> flux_and_momentum(const Drop& drop, const Vector3d& center, Fields fields) {
-  const ConstColumns x = drop.positions();
-  std::array<Vector4d, n> sums;
-  sums.fill(Vector4d::Zero());
-  for_each_face(drop, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-    const Vector3d p = x.col(i), q = x.col(j), r = x.col(k);
-    const Vector3d area = 0.5 * (q - p).cross(r - p), from_p = p - center, from_q = q - center, from_r = r - center;
-    const std::array<Vector3d, n> u = fields(i), v = fields(j), w = fields(k);
-    for (std::size_t f = 0; f < n; ++f) {
-      const double flux_i = u[f].dot(area), flux_j = v[f].dot(area), flux_k = w[f].dot(area);
-      const double flux = flux_i + flux_j + flux_k;
-      sums[f][0] += flux / 3;
-      sums[f].template tail<3>() +=
-          ((flux + flux_i) * from_p + (flux + flux_j) * from_q + (flux + flux_k) * from_r) / 12;
-    }
-  });
-  return sums;
-}
-
-Vector4d flux_and_momentum(const Drop& drop, const Vector3d& center) {
-  const ConstColumns u = drop.velocities();
-  return flux_and_momentum<1>(drop, center, [&](std::uint32_t i) { return std::array<Vector3d, 1>{u.col(i)}; })[0];
-}
-
-/// u += c + s n off solids, so that the flux vanishes and the momentum about `center` is the wanted one.
-void fit_momentum(Drop& drop, const SurfaceGeometry& geometry, const Vector3d& center, const Vector3d& momentum) {
-  Columns u = drop.velocities();
-  const auto basis = [&](std::uint32_t i) -> std::array<Vector3d, 4> {
-    if (!is_off_solids(drop, i)) return {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
-    return {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ(), geometry.normal(i)};
-  };
-  const std::array<Vector4d, 4> columns = flux_and_momentum<4>(drop, center, basis);
-  Matrix4d matrix;
-  for (int k = 0; k < 4; ++k) matrix.col(k) = columns[static_cast<std::size_t>(k)];
-  // In units in which a sphere of radius 1 gives numbers near 1.
-  const double length = std::cbrt(geometry.volume());
-  const Vector4d scale(length * length, length * length * length, length * length * length, length * length * length);
-  const Eigen::FullPivLU<Matrix4d> solver(scale.cwiseInverse().asDiagonal() * matrix);
-  if (!solver.isInvertible()) return;
-  for (int round = 0; round < 2; ++round) {  // the second takes the rounding of the first
-    Vector4d wanted;
-    wanted << 0, momentum;
-    wanted -= flux_and_momentum(drop, center);
-    const Vector4d c = solver.solve(wanted.cwiseQuotient(scale));
-    for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-      if (is_off_solids(drop, i)) u.col(i) += c.head<3>() + c[3] * geometry.normal(i);
-  }
-}
-
-/// What restore_ledger adds leaves no vertex faster, about the mean motion, than this many times the fastest before.
-constexpr double most_restored = 2;
-
-/// What mean_motion sums over faces, four at a time, times 6, 6, 24 and 24: enclosed volume, flux of the velocity,
-/// first moment of the volume, and momentum about the origin.
-struct FourMotions {
-  Four volume{}, flux{};
-  FourVectors first{}, momentum{};
-};
-
-Vector3d sum_of(const FourVectors& v) { return {sum(v.x), sum(v.y), sum(v.z)}; }
-
+/// The enclosed volume and its first moment; flux, and momentum for a density of 1, of a field given at vertices. Moment
+/// and momentum are about `reference`.
 struct Motions {
   double volume = 0, flux = 0;
   Vector3d first = Vector3d::Zero(), momentum = Vector3d::Zero();
+  Vector3d reference = Vector3d::Zero();
 
   Motions& operator+=(const Motions& other) {
     volume += other.volume;
@@ -145,35 +108,62 @@ struct Motions {
     momentum += other.momentum;
     return *this;
   }
+  Vector3d momentum_about(const Vector3d& c) const { return momentum - flux * (c - reference); }
 };
+
+/// Four faces at a time.
+Motions motions_of(const Drop& drop, const ConstColumns& u) {
+  const auto& triangles = drop.connectivity().triangles();
+  const ConstColumns x = drop.positions();
+  Motions none;
+  none.reference = reference_point(drop);
+  const FourVectors origin = four_times(none.reference);
+  return sum_over_chunks(triangles.size(), none, [&](std::size_t begin, std::size_t end) {
+    Four volumes{}, fluxes{};
+    FourVectors first{}, momentum{};
+    for (std::size_t k = begin; k < end; k += 4) {
+      const FourTriangles four(triangles, k, end);
+      const FourVectors p = four.corner(x.data(), 0) - origin, q = four.corner(x.data(), 1) - origin,
+                        r = four.corner(x.data(), 2) - origin, area = (q - p).cross(r - p);
+      const Four volume = p.dot(area);
+      volumes += volume;
+      first.x += volume * (p.x + q.x + r.x);
+      first.y += volume * (p.y + q.y + r.y);
+      first.z += volume * (p.z + q.z + r.z);
+      const Four at_p = four.corner(u.data(), 0).dot(area), at_q = four.corner(u.data(), 1).dot(area),
+                 at_r = four.corner(u.data(), 2).dot(area), flux = at_p + at_q + at_r;
+      fluxes += flux;
+      momentum.x += (flux + at_p) * p.x + (flux + at_q) * q.x + (flux + at_r) * r.x;
+      momentum.y += (flux + at_p) * p.y + (flux + at_q) * q.y + (flux + at_r) * r.y;
+      momentum.z += (flux + at_p) * p.z + (flux + at_q) * q.z + (flux + at_r) * r.z;
+    }
+    return Motions{sum(volumes) / 6, sum(fluxes) / 6, sum_of(first) / 24, sum_of(momentum) / 24, none.reference};
+  });
+}
+
+/// u += c + s n, so that the flux vanishes and the momentum about `center` is the wanted one. A constant field has no
+/// flux, and V c of momentum.
+void fit_momentum(Drop& drop, const SurfaceGeometry& geometry, const Vector3d& center, const Vector3d& momentum) {
+  const Motions normals = motions_of(drop, geometry.normals());
+  if (!(normals.flux > 0)) return;
+  Columns u = drop.velocities();
+  for (int round = 0; round < 2; ++round) {  // the second takes the rounding of the first
+    const Motions now = motions_of(drop, u);
+    const double s = -now.flux / normals.flux;
+    const Vector3d c =
+        (momentum - now.momentum_about(center) - s * normals.momentum_about(center)) / normals.volume;
+    for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
+      if (drop.connectivity().degree(i) > 0) u.col(i) += c + s * geometry.normal(i);
+  }
+}
+
+/// What restore_ledger adds leaves no vertex faster, about the mean motion, than this many times the fastest before.
+constexpr double most_restored = 2;
 
 }  // namespace
 
 MeanMotion mean_motion(const Drop& drop) {
-  const auto& triangles = drop.connectivity().triangles();
-  const ConstColumns x = drop.positions(), u = drop.velocities();
-  const Vector3d o = reference_point(drop);
-  const FourVectors origin{constant(o.x()), constant(o.y()), constant(o.z())};
-  const Motions sums = sum_over_chunks(triangles.size(), Motions{}, [&](std::size_t begin, std::size_t end) {
-    FourMotions part;
-    for (std::size_t first = begin; first < end; first += 4) {
-      const FourTriangles four(triangles, first, end);
-      const FourVectors p = four.corner(x.data(), 0) - origin, q = four.corner(x.data(), 1) - origin,
-                        r = four.corner(x.data(), 2) - origin, area = (q - p).cross(r - p);
-      const Four volume = p.dot(area);
-      part.volume += volume;
-      part.first.x += volume * (p.x + q.x + r.x);
-      part.first.y += volume * (p.y + q.y + r.y);
-      part.first.z += volume * (p.z + q.z + r.z);
-      const Four at_p = four.corner(u.data(), 0).dot(area), at_q = four.corner(u.data(), 1).dot(area),
-                 at_r = four.corner(u.data(), 2).dot(area), flux = at_p + at_q + at_r;
-      part.flux += flux;
-      part.momentum.x += (flux + at_p) * p.x + (flux + at_q) * q.x + (flux + at_r) * r.x;
-      part.momentum.y += (flux + at_p) * p.y + (flux + at_q) * q.y + (flux + at_r) * r.y;
-      part.momentum.z += (flux + at_p) * p.z + (flux + at_q) * q.z + (flux + at_r) * r.z;
-    }
-    return Motions{sum(part.volume) / 6, sum(part.flux) / 6, sum_of(part.first) / 24, sum_of(part.momentum) / 24};
-  });
+  const Motions sums = motions_of(drop, drop.velocities());
   if (!(sums.volume > 0)) return {};
   return {sums.volume, (sums.momentum - sums.flux / sums.volume * sums.first) / sums.volume};
 }
@@ -209,7 +199,7 @@ Ledger measure_ledger(const Drop& drop, const SurfaceGeometry& geometry) {
 
 /// `geometry`: the drop's as it is.
 void restore_ledger(Drop& drop, SurfaceGeometry& geometry, const Ledger& ledger, bool with_volume) {
-  if (!(ledger.volume > 0)) return;
+  if (!(ledger.volume > 0) || !(drop.volume() > 0)) return;
   if (with_volume) {
     constexpr double unbounded = std::numeric_limits<double>::infinity();
     offset_to_volume(drop, geometry, free_area(drop, geometry), ledger.volume, -unbounded, unbounded);
@@ -254,6 +244,7 @@ void restore_ledger(Drop& drop, const Ledger& ledger, bool with_volume) {
 }
 
 void restore_ledger(std::vector<Drop>& pieces, const Ledger& ledger, bool with_volume) {
+  if (pieces.size() == 1) return restore_ledger(pieces.front(), ledger, with_volume);
   std::vector<SurfaceGeometry> geometries;
   std::vector<Ledger> own;
   Ledger sum;
@@ -275,7 +266,7 @@ void restore_ledger(std::vector<Drop>& pieces, const Ledger& ledger, bool with_v
 Vector3d volume_centroid(const Drop& drop) { return volume_moments(drop).center; }
 
 Vector3d surface_momentum(const Drop& drop, double density, const Vector3d& c) {
-  return density * flux_and_momentum(drop, c).tail<3>();
+  return density * motions_of(drop, drop.velocities()).momentum_about(c);
 }
 
 }  // namespace meniscus

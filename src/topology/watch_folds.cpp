@@ -124,6 +124,39 @@ void watch_thin_places(Drop& drop, double thickness) {
       for (const auto v : face_at(k)) watch[v] = std::max(watch[v], violent_watched_calls);
 }
 
+/// Where normals at wetted vertices differ by less, a solid is flat under a drop.
+constexpr double flat = 0.02;
+
+/// A wetted vertex lies on a free face, seen along an edge of the contact line that they share, if it is less than this
+/// share of its distance under the face's plane.
+constexpr double flush = 0.03;
+
+/// An edge of the contact line is a chord of the solid. Where the surface comes down flat on it, a wetted vertex beside
+/// the edge may stand through the free face on it.
+void watch_chords(Drop& drop) {
+  const MeshView mesh = view_of(std::as_const(drop));
+  const Contact* contact = drop.contact();
+  std::uint8_t* const watch = drop.seam_watch();
+  for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
+    if (contact[v] != Contact::line) continue;
+    const Ring ring = drop.connectivity().ring(v);
+    for (int k = 0; k < ring.degree; ++k) {
+      const std::uint32_t n = ring.neighbour[k];
+      if (n < v || contact[n] != Contact::line) continue;
+      const std::uint32_t before = ring.neighbour[(k + ring.degree - 1) % ring.degree];
+      const std::uint32_t after = ring.neighbour[(k + 1) % ring.degree];
+      if (is_colliding(contact[before]) == is_colliding(contact[after])) continue;
+      const bool is_free_after = !is_colliding(contact[after]);
+      const Vector3d one = area_vector(mesh, {v, before, n}).stableNormalized();
+      const Vector3d other = area_vector(mesh, {v, n, after}).stableNormalized();
+      const std::uint32_t wetted = is_free_after ? before : after;
+      const Vector3d to = mesh.points.col(wetted) - mesh.points.col(v);
+      if (!(one.dot(other) < opposite && (is_free_after ? other : one).dot(to) > -flush * to.norm())) continue;
+      for (const auto w : {v, n, before, after}) watch[w] = std::max(watch[w], violent_watched_calls);
+    }
+  }
+}
+
 }  // namespace
 
 void watch_faces(Drop& drop, const std::vector<std::uint8_t>& marked) {
@@ -135,6 +168,8 @@ void watch_faces(Drop& drop, const std::vector<std::uint8_t>& marked) {
 
 void watch_bends(Drop& drop) {
   const double half_bend = std::sqrt(2 - std::sqrt(2 * (1 + cosine_of_bend)));  // the chord of half the angle
+  if (!contact_normals_differ(drop, flat)) return;
+  watch_chords(drop);
   if (!contact_normals_differ(drop, half_bend)) return;
   const Contact* contact = drop.contact();
   const ConstColumns n = std::as_const(drop).contact_normals();

@@ -19,6 +19,9 @@ using Eigen::Vector3d;
 
 constexpr double film_thickness = 0.02, largest_sagitta = 0.25;  // of the mean length of a vertex' edges
 
+/// A film this near to what is wetted lies on it (cm): so does a vertex that was stopped at a disc.
+constexpr double touching_distance = 1e-9;
+
 /// The faces of a drop that lie on solids.
 class WettedFaces {
  public:
@@ -161,7 +164,7 @@ void lift_films(Drop& drop, const std::vector<Solid>& solids, double time, doubl
       if (films.empty()) films.assign(drop.num_rows(), 0);
       films[v] = 1;
       const Vector3d solid_velocity = solid.velocity(time);
-      if (below.distance > needed)
+      if (below.distance > std::max(needed, touching_distance))
         stop(drop, v, below.normal, solid_velocity);
       else
         lift(drop, v, film_height(drop, v, below.point, below.normal, needed), below.point, below.normal,

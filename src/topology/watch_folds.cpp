@@ -3,6 +3,7 @@
 #include "face_grid.h"
 #include "meniscus/state/contact_line.h"
 #include "merge_parts.h"
+#include "placed_face.h"
 #include "sorted_boxes.h"
 
 #include <algorithm>
@@ -127,33 +128,37 @@ void watch_thin_places(Drop& drop, double thickness) {
 /// Where normals at wetted vertices differ by less, a solid is flat under a drop.
 constexpr double flat = 0.02;
 
-/// A wetted vertex lies on a free face, seen along an edge of the contact line that they share, if it is less than this
-/// share of its distance under the face's plane.
-constexpr double flush = 0.03;
-
-/// An edge of the contact line is a chord of the solid. Where the surface comes down flat on it, a wetted vertex beside
-/// the edge may stand through the free face on it.
-void watch_chords(Drop& drop) {
+/// Watches wetted faces and others that meet, unless one of them is watched already. On a flat solid nothing free gets
+/// below what is wetted; but the faces on one that bends, and the edges of the contact line, are its chords.
+void watch_crossed_contact(Drop& drop) {
   const MeshView mesh = view_of(std::as_const(drop));
   const Contact* contact = drop.contact();
+  const auto is_wetted = [&](const Triangle& t) {
+    return is_colliding(contact[t[0]]) && is_colliding(contact[t[1]]) && is_colliding(contact[t[2]]);
+  };
   std::uint8_t* const watch = drop.seam_watch();
-  for (std::uint32_t v = 0; v < drop.num_rows(); ++v) {
-    if (contact[v] != Contact::line) continue;
-    const Ring ring = drop.connectivity().ring(v);
-    for (int k = 0; k < ring.degree; ++k) {
-      const std::uint32_t n = ring.neighbour[k];
-      if (n < v || contact[n] != Contact::line) continue;
-      const std::uint32_t before = ring.neighbour[(k + ring.degree - 1) % ring.degree];
-      const std::uint32_t after = ring.neighbour[(k + 1) % ring.degree];
-      if (is_colliding(contact[before]) == is_colliding(contact[after])) continue;
-      const bool is_free_after = !is_colliding(contact[after]);
-      const Vector3d one = area_vector(mesh, {v, before, n}).stableNormalized();
-      const Vector3d other = area_vector(mesh, {v, n, after}).stableNormalized();
-      const std::uint32_t wetted = is_free_after ? before : after;
-      const Vector3d to = mesh.points.col(wetted) - mesh.points.col(v);
-      if (!(one.dot(other) < opposite && (is_free_after ? other : one).dot(to) > -flush * to.norm())) continue;
-      for (const auto w : {v, n, before, after}) watch[w] = std::max(watch[w], violent_watched_calls);
-    }
+  const auto is_watched = [&](const Triangle& t) { return watch[t[0]] != 0 && watch[t[1]] != 0 && watch[t[2]] != 0; };
+  std::vector<FaceBox> wetted;
+  std::vector<PlacedTriangle> placed;
+  Eigen::AlignedBox3d region;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    if (t[0] == Connectivity::removed || !is_wetted(t) || is_watched(t)) continue;
+    wetted.push_back({box_of(mesh, t), f});
+    placed.push_back(placed_face(mesh, f));
+    region.extend(wetted.back().box);
+  }
+  if (wetted.empty()) return;
+  const SortedBoxes near(wetted);
+  for (const FaceBox& face : faces_in(mesh, region)) {
+    const Triangle& t = mesh.triangles[face.face];
+    if (is_wetted(t) || is_watched(t)) continue;
+    const PlacedTriangle own = placed_face(mesh, face.face);
+    near.for_each_meeting(face.box, [&](std::uint32_t k) {
+      if (!meet(own, placed[k])) return;
+      for (const auto v : t) watch[v] = std::max(watch[v], violent_watched_calls);
+      for (const auto v : mesh.triangles[wetted[k].face]) watch[v] = std::max(watch[v], violent_watched_calls);
+    });
   }
 }
 
@@ -169,7 +174,7 @@ void watch_faces(Drop& drop, const std::vector<std::uint8_t>& marked) {
 void watch_bends(Drop& drop) {
   const double half_bend = std::sqrt(2 - std::sqrt(2 * (1 + cosine_of_bend)));  // the chord of half the angle
   if (!contact_normals_differ(drop, flat)) return;
-  watch_chords(drop);
+  watch_crossed_contact(drop);
   if (!contact_normals_differ(drop, half_bend)) return;
   const Contact* contact = drop.contact();
   const ConstColumns n = std::as_const(drop).contact_normals();

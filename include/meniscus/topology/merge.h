@@ -51,8 +51,7 @@ void restore_volume(Drop& drop, double volume, double edge_max);
 void watch_faces(Drop& drop, const std::vector<std::uint8_t>& marked);
 
 /// Watches the vertices of faces under which a solid bends: between such a face and the solid there is room for the
-/// surface beside the contact line. On any solid that is not flat, also where a wetted vertex beside an edge of the
-/// contact line lies on, or beyond, the free face on it.
+/// surface beside the contact line. On any solid that is not flat, also those of wetted faces and others that meet.
 void watch_bends(Drop& drop);
 
 /// Watches where a drop that is no ball has air on both sides and is thin: its two sides may pass through each other

@@ -2,7 +2,6 @@
 #include "boolean_seam.h"
 
 #include "meniscus/geometry/self_intersection.h"
-#include "sorted_boxes.h"
 
 #include <CGAL/Exact_rational.h>
 
@@ -211,12 +210,6 @@ bool sort_along_edges(const MeshView& a, const MeshView& b, Seam& seam) {
   return all_differ;
 }
 
-/// Faces that share a vertex or an edge and meet in nothing else.
-bool meet_as_neighbours(const MeshView& mesh, std::uint32_t f, std::uint32_t g) {
-  const auto at = [&](std::uint32_t v) -> const Point& { return point_at(mesh, v); };
-  return !meet_elsewhere(at, mesh.triangles[f], mesh.triangles[g]);
-}
-
 std::optional<Seam> finish(Collector& collector, const MeshView& a, const MeshView& b) {
   std::optional<Seam> seam = collector.finish();
   if (!seam) return std::nullopt;
@@ -237,15 +230,11 @@ std::optional<Seam> find_seam(const MeshView& a, const std::vector<FaceBox>& fac
   return finish(collector, a, b);
 }
 
-std::optional<Seam> find_self_seam(const MeshView& mesh, const std::vector<FaceBox>& faces) {
+std::optional<Seam> find_self_seam(const MeshView& mesh, const std::vector<FacePair>& meeting) {
   Collector collector(mesh, mesh);
-  const bool in_general_position = SortedBoxes(faces).for_each_pair([&](std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t f = faces[a].face, g = faces[b].face;
-    return share_a_vertex(mesh.triangles[f], mesh.triangles[g])
-               ? meet_as_neighbours(mesh, f, g)
-               : collector.look_at(f, g) && collector.look_at(g, f);
-  });
-  if (!in_general_position) return std::nullopt;
+  for (const auto& [f, g] : meeting)
+    if (share_a_vertex(mesh.triangles[f], mesh.triangles[g]) || !collector.look_at(f, g) || !collector.look_at(g, f))
+      return std::nullopt;
   return finish(collector, mesh, mesh);
 }
 

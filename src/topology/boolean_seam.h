@@ -37,8 +37,9 @@ struct Seam {
 std::optional<Seam> find_seam(const MeshView& a, const std::vector<FaceBox>& faces_a, const MeshView& b,
                               const std::vector<FaceBox>& faces_b);
 
-/// The same for one surface that crosses itself: every crossing is there twice, as an edge of A and as an edge
-/// of B, and so is every segment. Nothing, too, if faces that share a vertex meet elsewhere.
-std::optional<Seam> find_self_seam(const MeshView& mesh, const std::vector<FaceBox>& faces);
+/// The same for one surface of which the given pairs of faces meet elsewhere than in what they share: every crossing is
+/// there twice, as an edge of A and as an edge of B, and so is every segment. Nothing, too, if some of them share a
+/// vertex.
+std::optional<Seam> find_self_seam(const MeshView& mesh, const std::vector<FacePair>& meeting);
 
 }  // namespace meniscus::boolean_parts

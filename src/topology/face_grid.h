@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <array>
 #include <vector>
 
 namespace meniscus {
@@ -14,6 +15,9 @@ struct FaceBox {
   Eigen::AlignedBox3d box;
   std::uint32_t face;
 };
+
+/// Two triangles, the first with the smaller index.
+using FacePair = std::array<std::uint32_t, 2>;
 
 /// Boxes in the cells of a regular grid, to find those that meet a given one. Made for many boxes of
 /// like size; others cost time, not correctness.

@@ -15,6 +15,17 @@ std::vector<PlacedTriangle> placed_faces(const MeshView& mesh, const std::vector
   return placed;
 }
 
+std::vector<FacePair> faces_that_meet(const MeshView& mesh, const std::vector<FaceBox>& faces,
+                                      const SortedBoxes& boxes) {
+  const std::vector<PlacedTriangle> placed = placed_faces(mesh, faces);
+  std::vector<FacePair> meeting;
+  for (const auto& [a, b] :
+       boxes.pairs_if([&](std::uint32_t a, std::uint32_t b) { return meet(placed[a], placed[b]); }))
+    meeting.push_back({std::min(faces[a].face, faces[b].face), std::max(faces[a].face, faces[b].face)});
+  std::sort(meeting.begin(), meeting.end());
+  return meeting;
+}
+
 }  // namespace
 
 FoldFinder::FoldFinder(const Drop& drop, std::vector<FaceBox> faces)
@@ -23,13 +34,9 @@ FoldFinder::FoldFinder(const Drop& drop, std::vector<FaceBox> faces)
       boxes_(faces_),
       place_(drop.connectivity().triangles().size(), none),
       has_moved_(faces_.size(), 0),
-      is_waiting_(faces_.size(), 0) {
-  const std::vector<PlacedTriangle> placed = placed_faces(view_of(drop_), faces_);
+      is_waiting_(faces_.size(), 0),
+      meeting_(faces_that_meet(view_of(drop_), faces_, boxes_)) {
   for (std::uint32_t k = 0; k < faces_.size(); ++k) place_[faces_[k].face] = k;
-  const auto meeting = boxes_.pairs_if([&](std::uint32_t a, std::uint32_t b) { return meet(placed[a], placed[b]); });
-  for (const auto& [a, b] : meeting)
-    meeting_.push_back({std::min(faces_[a].face, faces_[b].face), std::max(faces_[a].face, faces_[b].face)});
-  std::sort(meeting_.begin(), meeting_.end());
 }
 
 void FoldFinder::move(std::uint32_t v) {
@@ -42,7 +49,7 @@ void FoldFinder::move(std::uint32_t v) {
   }
 }
 
-const std::vector<FoldFinder::Pair>& FoldFinder::meeting() {
+const std::vector<FacePair>& FoldFinder::meeting() {
   if (!waiting_.empty()) look_again();
   return meeting_;
 }
@@ -69,7 +76,7 @@ void FoldFinder::look_again() {
   const MeshView mesh = view_of(drop_);
   const auto waits = [&](std::uint32_t face) { return is_waiting_[place_[face]] != 0; };
   meeting_.erase(
-      std::remove_if(meeting_.begin(), meeting_.end(), [&](const Pair& p) { return waits(p[0]) || waits(p[1]); }),
+      std::remove_if(meeting_.begin(), meeting_.end(), [&](const FacePair& p) { return waits(p[0]) || waits(p[1]); }),
       meeting_.end());
   std::vector<FaceBox> moved;
   for (std::uint32_t k = 0; k < faces_.size(); ++k)
@@ -100,10 +107,8 @@ Eigen::AlignedBox3d FoldFinder::box_now(std::uint32_t face) const {
   return box_of(view_of(drop_), drop_.connectivity().triangles()[face]);
 }
 
-bool meet_each_other(const MeshView& mesh, const std::vector<FaceBox>& faces) {
-  const std::vector<PlacedTriangle> placed = placed_faces(mesh, faces);
-  return !SortedBoxes(faces).for_each_pair(
-      [&](std::uint32_t a, std::uint32_t b) { return !meet(placed[a], placed[b]); });
+std::vector<FacePair> faces_that_meet(const MeshView& mesh, const std::vector<FaceBox>& faces) {
+  return faces_that_meet(mesh, faces, SortedBoxes(faces));
 }
 
 }  // namespace meniscus

@@ -4,7 +4,6 @@
 #include "meniscus/state/drop.h"
 #include "sorted_boxes.h"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -14,15 +13,13 @@ namespace meniscus {
 /// faces at them belong to it, and those that these may then meet.
 class FoldFinder {
  public:
-  using Pair = std::array<std::uint32_t, 2>;
-
   /// Keeps a reference to the drop, whose mesh must not change.
   FoldFinder(const Drop& drop, std::vector<FaceBox> faces);
 
   /// The vertex has another place now.
   void move(std::uint32_t v);
-  /// Pairs of faces that meet, each sorted, in order.
-  const std::vector<Pair>& meeting();
+  /// Pairs of faces that meet, in order.
+  const std::vector<FacePair>& meeting();
 
  private:
   static constexpr std::uint32_t none = ~std::uint32_t{0};
@@ -39,10 +36,10 @@ class FoldFinder {
   std::vector<std::uint32_t> place_;                  // of a face in the list
   std::vector<std::uint8_t> has_moved_, is_waiting_;  // has_moved_: or has joined since
   std::vector<std::uint32_t> waiting_;                // places of faces that have moved since the last look
-  std::vector<Pair> meeting_;
+  std::vector<FacePair> meeting_;
 };
 
-/// Whether any two of the faces meet elsewhere than in what they share.
-bool meet_each_other(const MeshView& mesh, const std::vector<FaceBox>& faces);
+/// Which of the faces meet each other elsewhere than in what they share, in order.
+std::vector<FacePair> faces_that_meet(const MeshView& mesh, const std::vector<FaceBox>& faces);
 
 }  // namespace meniscus

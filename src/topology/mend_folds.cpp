@@ -88,7 +88,7 @@ class TakeBack {
   void run(Folds folds) {
     constexpr int narrow_rounds = 6, most_rounds = 16;
     for (int round = 0; round < most_rounds; ++round) {
-      const std::vector<FoldFinder::Pair> meeting = of_kind(folds);
+      const std::vector<FacePair> meeting = of_kind(folds);
       if (meeting.empty()) return;
       const std::size_t count = taken_.size();
       for (const auto& pair : meeting)
@@ -126,8 +126,8 @@ class TakeBack {
   }
 
  private:
-  std::vector<FoldFinder::Pair> of_kind(Folds folds) {
-    std::vector<FoldFinder::Pair> meeting = finder_.meeting();
+  std::vector<FacePair> of_kind(Folds folds) {
+    std::vector<FacePair> meeting = finder_.meeting();
     const auto& triangles = drop_.connectivity().triangles();
     if (folds == Folds::between_neighbours)
       meeting.erase(std::remove_if(meeting.begin(), meeting.end(),
@@ -190,7 +190,7 @@ std::optional<std::vector<Drop>> mend_folds(Drop& drop, const LastSound& before,
   if (take_back) take_back->run(Folds::between_neighbours);  // no union mends these
   BooleanResult result;
   if (!finder.meeting().empty()) {
-    result = unite_with_itself(view_of(std::as_const(drop)), region.faces_of(drop), options.keep_air);
+    result = unite_with_itself(view_of(std::as_const(drop)), region.faces_of(drop), finder.meeting(), options.keep_air);
     if (!result.ok() && take_back) take_back->run(Folds::all);
   }
   const std::vector<std::uint32_t> taken = take_back ? take_back->taken() : std::vector<std::uint32_t>();

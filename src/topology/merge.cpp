@@ -102,7 +102,8 @@ std::optional<BooleanResult> unite_on(const SharedPlane& plane, const Drop& a, c
     const auto& p = result.points[row];
     set(row, turn.transpose() * Vector3d(p[0], p[1], p[2] + plane.offset));
   }
-  if (meet_each_other(boolean_parts::view_of(result), faces_in_doubt(result, is_on_plane))) return std::nullopt;
+  if (!faces_that_meet(boolean_parts::view_of(result), faces_in_doubt(result, is_on_plane)).empty())
+    return std::nullopt;
   return result;
 }
 
@@ -225,7 +226,7 @@ void give_back(std::vector<Drop>& pieces, const Ledger& ledger, const MergeOptio
   for (const Drop& piece : pieces) start.push_back({piece.positions(), piece.velocities()});
   const auto meets_itself = [&](const Drop& piece) {
     const WatchedRegion region = guarded_region(piece, options.remesh.band.edge_max);
-    return !region.empty() && meet_each_other(view_of(piece), region.faces_of(piece));
+    return !region.empty() && !faces_that_meet(view_of(piece), region.faces_of(piece)).empty();
   };
   for (const bool with_volume : {true, false}) {
     restore_ledger(pieces, ledger, with_volume);

@@ -35,7 +35,9 @@ std::vector<Drop> rebuild(const Drop& a, const Drop& b, BooleanResult result, Le
 /// left: the faces of the region do not meet if they did not before.
 void offset_around(Drop& drop, std::vector<std::uint32_t> held, double volume, const WatchedRegion& region);
 
-/// unite_with_itself of the given faces, which are sorted by index.
-BooleanResult unite_with_itself(const MeshView& mesh, const std::vector<FaceBox>& faces, bool keep_cavities);
+/// unite_with_itself of some faces, sorted by index, given which faces meet each other elsewhere than in what they
+/// share.
+BooleanResult unite_with_itself(const MeshView& mesh, const std::vector<FaceBox>& faces,
+                                const std::vector<FacePair>& meeting, bool keep_cavities);
 
 }  // namespace meniscus

@@ -3,6 +3,7 @@
 
 #include "boolean_cut.h"
 #include "boolean_parts.h"
+#include "fold_finder.h"
 #include "meniscus/core/index_sets.h"
 #include "merge_parts.h"
 
@@ -216,11 +217,13 @@ BooleanResult assemble(const MeshView& mesh, const Seam& seam, const CutFaces& c
 }  // namespace
 
 BooleanResult unite_with_itself(const MeshView& mesh, const Eigen::AlignedBox3d& region, bool keep_cavities) {
-  return unite_with_itself(mesh, faces_in(mesh, region), keep_cavities);
+  const std::vector<FaceBox> faces = faces_in(mesh, region);
+  return unite_with_itself(mesh, faces, faces_that_meet(mesh, faces), keep_cavities);
 }
 
-BooleanResult unite_with_itself(const MeshView& mesh, const std::vector<FaceBox>& faces, bool keep_cavities) {
-  auto seam = find_self_seam(mesh, faces);
+BooleanResult unite_with_itself(const MeshView& mesh, const std::vector<FaceBox>& faces,
+                                const std::vector<FacePair>& meeting, bool keep_cavities) {
+  auto seam = find_self_seam(mesh, meeting);
   if (!seam) return refuse("the surface folds over between neighbouring faces");
   BooleanResult result;
   result.outcome = BooleanOutcome::disjoint;

@@ -22,16 +22,8 @@ class SortedBoxes {
 
   explicit SortedBoxes(const std::vector<FaceBox>& boxes);
 
-  /// Calls visit(a, b), a < b, for every two boxes that meet, each pair once, until it returns false; then returns
-  /// false too. The order depends on nothing but the boxes.
-  template <class Visit>
-  bool for_each_pair(Visit visit) const {
-    for (std::size_t i = 0; i < order_.size(); ++i)
-      if (!look_behind(i, visit)) return false;
-    return true;
-  }
-
-  /// The pairs of for_each_pair that test(a, b) is true for, in the same order. It is asked on all threads.
+  /// The pairs a < b of boxes that meet for which test(a, b) is true, each once. It is asked on all threads; the order
+  /// depends on nothing but the boxes.
   template <class Test>
   std::vector<Pair> pairs_if(const Test& test) const {
     struct Found {
@@ -49,7 +41,6 @@ class SortedBoxes {
                  for (std::size_t i = begin; i < end; ++i)
                    look_behind(i, [&](std::uint32_t a, std::uint32_t b) {
                      if (test(a, b)) part.pairs.push_back({a, b});
-                     return true;
                    });
                  return part;
                },
@@ -63,10 +54,7 @@ class SortedBoxes {
     const Row row = row_of(query);
     const auto first = std::lower_bound(quads_.begin(), quads_.end(), row.low[0],
                                         [](const Quad& quad, double low) { return quad.highest < low; });
-    look_from(static_cast<std::size_t>(first - quads_.begin()), row, [&](std::size_t j) {
-      visit(order_[j]);
-      return true;
-    });
+    look_from(static_cast<std::size_t>(first - quads_.begin()), row, [&](std::size_t j) { visit(order_[j]); });
   }
 
  private:
@@ -82,9 +70,9 @@ class SortedBoxes {
 
   Row row_of(const Eigen::AlignedBox3d& box) const;
 
-  /// Calls visit(j) for the boxes from quad `first` on that meet one, until it returns false; then returns false too.
+  /// Calls visit(j) for the boxes from quad `first` on that meet one.
   template <class Visit>
-  bool look_from(std::size_t first, const Row& own, Visit visit) const {
+  void look_from(std::size_t first, const Row& own, Visit visit) const {
     const Four low_x = constant(own.low[0]), high_x = constant(own.high[0]);
     const Four low_y = constant(own.low[1]), high_y = constant(own.high[1]);
     const Four low_z = constant(own.low[2]), high_z = constant(own.high[2]);
@@ -94,21 +82,20 @@ class SortedBoxes {
                          (other.high[1] >= low_y) & (other.low[2] <= high_z) & (other.high[2] >= low_z);
       if ((meets[0] | meets[1] | meets[2] | meets[3]) == 0) continue;
       for (std::size_t k = 0; k < 4; ++k)
-        if (meets[k] != 0 && !visit(4 * q + k)) return false;
+        if (meets[k] != 0) visit(4 * q + k);
     }
-    return true;
   }
 
   /// Calls visit(a, b), a < b, for box i and those behind it that meet it.
   template <class Visit>
-  bool look_behind(std::size_t i, const Visit& visit) const {
+  void look_behind(std::size_t i, const Visit& visit) const {
     const Quad& own = quads_[i / 4];
     const std::size_t k = i % 4;
     const Row row{{own.low[0][k], own.low[1][k], own.low[2][k]}, {own.high[0][k], own.high[1][k], own.high[2][k]}};
-    return look_from((i + 1) / 4, row, [&](std::size_t j) {
-      if (j <= i) return true;
+    look_from((i + 1) / 4, row, [&](std::size_t j) {
+      if (j <= i) return;
       const auto [a, b] = std::minmax(order_[i], order_[j]);
-      return visit(a, b);
+      visit(a, b);
     });
   }
 

@@ -8,6 +8,8 @@
 namespace meniscus {
 namespace {
 
+using Eigen::Vector3d;
+
 std::vector<PlacedTriangle> placed_faces(const MeshView& mesh, const std::vector<FaceBox>& faces) {
   std::vector<PlacedTriangle> placed;
   placed.reserve(faces.size());
@@ -15,12 +17,74 @@ std::vector<PlacedTriangle> placed_faces(const MeshView& mesh, const std::vector
   return placed;
 }
 
+/// What is known of the faces around a vertex.
+struct Fan {
+  Vector3d normal = Vector3d::Zero();  // the sum of theirs
+  Vector3d across = Vector3d::Zero();  // with an edge's: on which side of a plane along the normal the edge goes
+  double least = 0;                    // with a face's unit normal: no less, or it leans over
+  int missing = 0;                     // faces that are not in the list, or lean over
+  int turns = 0;                       // how often they go around
+};
+
+/// Of each face the vertices around which the surface is a graph over a plane, so that the faces there meet each other
+/// in nothing but what they share; for others a number that is there once.
+std::vector<std::array<std::uint32_t, 3>> graph_vertices(const MeshView& mesh,
+                                                         const std::vector<PlacedTriangle>& faces) {
+  constexpr double least_cosine = 0.1;
+  std::vector<Fan> fans(static_cast<std::size_t>(mesh.points.cols()));
+  for (const Triangle& t : mesh.triangles)
+    if (t[0] != Connectivity::removed)
+      for (const auto v : t) ++fans[v].missing;
+  for (const PlacedTriangle& face : faces)
+    for (const auto v : face.vertices) {
+      --fans[v].missing;
+      fans[v].normal += face.normal;
+    }
+  for (Fan& fan : fans) {
+    if (fan.missing != 0) continue;
+    Eigen::Index axis = 0;
+    fan.normal.cwiseAbs().minCoeff(&axis);
+    fan.across = fan.normal.cross(Vector3d::Unit(axis));
+    fan.least = least_cosine * fan.normal.norm();
+  }
+  for (const PlacedTriangle& face : faces) {
+    const double length = face.normal.norm();
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d& p = face.points[k];
+      Fan& fan = fans[face.vertices[k]];
+      const bool is_upright = face.has_plane() && face.normal.dot(fan.normal) > fan.least * length;
+      fan.missing += !is_upright;
+      fan.turns +=
+          fan.across.dot(face.points[(k + 1) % 3] - p) <= 0 && fan.across.dot(face.points[(k + 2) % 3] - p) > 0;
+    }
+  }
+  std::vector<std::array<std::uint32_t, 3>> vertices;
+  vertices.reserve(faces.size());
+  std::uint32_t no_vertex = ~std::uint32_t{0};
+  for (const PlacedTriangle& face : faces) {
+    vertices.push_back(face.vertices);
+    for (auto& v : vertices.back())
+      if (fans[v].missing != 0 || fans[v].turns != 1) v = no_vertex--;
+  }
+  return vertices;
+}
+
+/// Whether two faces have one of those vertices in common.
+bool share(const std::array<std::uint32_t, 3>& s, const std::array<std::uint32_t, 3>& t) {
+  bool found = false;
+  for (const auto v : s)
+    for (const auto w : t) found |= v == w;
+  return found;
+}
+
 std::vector<FacePair> faces_that_meet(const MeshView& mesh, const std::vector<FaceBox>& faces,
                                       const SortedBoxes& boxes) {
   const std::vector<PlacedTriangle> placed = placed_faces(mesh, faces);
+  const std::vector<std::array<std::uint32_t, 3>> around = graph_vertices(mesh, placed);
   std::vector<FacePair> meeting;
-  for (const auto& [a, b] :
-       boxes.pairs_if([&](std::uint32_t a, std::uint32_t b) { return meet(placed[a], placed[b]); }))
+  for (const auto& [a, b] : boxes.pairs_if([&](std::uint32_t a, std::uint32_t b) {
+         return !share(around[a], around[b]) && meet(placed[a], placed[b]);
+       }))
     meeting.push_back({std::min(faces[a].face, faces[b].face), std::max(faces[a].face, faces[b].face)});
   std::sort(meeting.begin(), meeting.end());
   return meeting;

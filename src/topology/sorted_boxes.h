@@ -76,13 +76,16 @@ class SortedBoxes {
     const Four low_x = constant(own.low[0]), high_x = constant(own.high[0]);
     const Four low_y = constant(own.low[1]), high_y = constant(own.high[1]);
     const Four low_z = constant(own.low[2]), high_z = constant(own.high[2]);
-    for (std::size_t q = first; q < quads_.size() && !(quads_[q].low[0][0] > own.high[0]); ++q) {
-      const Quad& other = quads_[q];
+    const std::size_t last = quads_.size();
+    const Quad* const quads = quads_.data();
+    for (std::size_t q = first; q < last && !(quads[q].low[0][0] > own.high[0]); ++q) {
+      const Quad& other = quads[q];
       const auto meets = (other.low[0] <= high_x) & (other.high[0] >= low_x) & (other.low[1] <= high_y) &
                          (other.high[1] >= low_y) & (other.low[2] <= high_z) & (other.high[2] >= low_z);
-      if ((meets[0] | meets[1] | meets[2] | meets[3]) == 0) continue;
+      const unsigned lanes = lanes_where(meets);
+      if (lanes == 0) continue;
       for (std::size_t k = 0; k < 4; ++k)
-        if (meets[k] != 0) visit(4 * q + k);
+        if ((lanes >> k & 1) != 0) visit(4 * q + k);
     }
   }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What finds faces near each other, against a look at all of them.
+#include "../../src/topology/fold_finder.h"
+#include "../../src/topology/placed_face.h"
 #include "../../src/topology/sorted_boxes.h"
 #include "../../src/topology/watched_region.h"
 #include "meniscus/geometry/shapes.h"
@@ -55,6 +57,38 @@ TEST(SortedBoxes, FindThoseThatMeetAGivenBox) {
       if (query.box.intersects(boxes[k].box)) expected.push_back(k);
     EXPECT_EQ(found, expected);
   }
+}
+
+/// Faces around a vertex that is smooth are not asked one by one: the answers are those of `meet` all the same, from a
+/// round surface to a crumpled one, and where not all faces around a vertex are in the list.
+TEST(FacesThatMeet, AreThoseOfALookAtAllPairs) {
+  std::mt19937 numbers(11);
+  std::size_t num_meeting = 0;
+  for (const double noise : {0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 1.0}) {
+    Drop drop(make_icosphere(Vector3d(0.3, -7, 2), 1, 6));
+    std::normal_distribution<double> move(0, noise);
+    for (std::uint32_t v = 0; v < drop.num_rows() && noise > 0; ++v)
+      drop.positions().col(v) += Vector3d(move(numbers), move(numbers), move(numbers));
+    const MeshView mesh = view_of(std::as_const(drop));
+    for (const double share : {1.0, 0.7}) {
+      std::vector<FaceBox> faces = faces_in(mesh, box_of(mesh));
+      faces.erase(std::remove_if(faces.begin(), faces.end(),
+                                 [&](const FaceBox&) { return std::generate_canonical<double, 32>(numbers) > share; }),
+                  faces.end());
+      std::vector<FacePair> expected;
+      for (std::size_t a = 0; a < faces.size(); ++a)
+        for (std::size_t b = a + 1; b < faces.size(); ++b)
+          if (faces[a].box.intersects(faces[b].box) &&
+              meet(placed_face(mesh, faces[a].face), placed_face(mesh, faces[b].face)))
+            expected.push_back({faces[a].face, faces[b].face});
+      EXPECT_EQ(faces_that_meet(mesh, faces), expected) << noise << ", " << share;
+      if (noise == 0) {
+        EXPECT_TRUE(expected.empty());
+      }
+      num_meeting += expected.size();
+    }
+  }
+  EXPECT_GT(num_meeting, 1000u);
 }
 
 TEST(WatchedRegion, ReachesFromOneToTwoReachesFromAWatchedVertex) {

@@ -7,18 +7,30 @@
 
 #include <array>
 #include <cstddef>
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
 
 /// Four triangles side by side, so that whole registers hold one coordinate of each: passes over all faces are bound by
 /// arithmetic, and this does four times as much of it at once.
 namespace meniscus {
 
 using Four = Lanes;
+using FourFlags = decltype(Four{} < Four{});  ///< of a comparison: all bits of a lane, or none
 
 inline Four constant(double value) { return Four{value, value, value, value}; }
 inline Four square_root(Four v) {
   Eigen::Map<Eigen::Array4d, Eigen::Aligned32> lanes(reinterpret_cast<double*>(&v));
   lanes = lanes.sqrt();
   return v;
+}
+/// Bit k is set where a comparison holds in lane k.
+inline unsigned lanes_where(const FourFlags& flags) {
+#ifdef __AVX__
+  return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<const __m256d&>(flags)));
+#else
+  return (flags[0] & 1) | (flags[1] & 2) | (flags[2] & 4) | (flags[3] & 8);
+#endif
 }
 inline double sum(const Four& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace meniscus {
 
@@ -18,6 +19,7 @@ struct PlacedTriangle {
 
   PlacedTriangle(const std::array<std::uint32_t, 3>& its_vertices, const std::array<Eigen::Vector3d, 3>& its_points);
 
+  bool has_plane() const { return rounding < std::numeric_limits<double>::infinity(); }
   Eigen::AlignedBox3d box() const {
     return {points[0].cwiseMin(points[1]).cwiseMin(points[2]), points[0].cwiseMax(points[1]).cwiseMax(points[2])};
   }

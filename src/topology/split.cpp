@@ -53,21 +53,25 @@ struct Component {
   std::vector<FaceIndex> faces;
 };
 
-/// The place of a vertex among those of its component.
-std::uint32_t row_in(const Component& component, VertexIndex v) {
-  const auto at = std::lower_bound(component.vertices.begin(), component.vertices.end(), v);
-  return static_cast<std::uint32_t>(at - component.vertices.begin());
-}
+struct Components {
+  std::vector<Component> list;
+  std::vector<std::uint32_t> row;  // the place of a vertex among those of its component
+};
 
-std::vector<Component> components_of(const Mesh& mesh, const Labels& labels) {
-  std::vector<Component> components(labels.count);
-  for (const auto v : mesh.vertices())
-    if (labels.of_vertex[v] != Labels::none) components[labels.of_vertex[v]].vertices.push_back(v);
-  for (const auto f : mesh.faces()) components[labels.of_vertex[mesh.target(mesh.halfedge(f))]].faces.push_back(f);
+Components components_of(const Mesh& mesh) {
+  const Labels labels = label_components(mesh);
+  Components components{std::vector<Component>(labels.count), std::vector<std::uint32_t>(mesh.num_vertices())};
+  for (const auto v : mesh.vertices()) {
+    if (labels.of_vertex[v] == Labels::none) continue;
+    std::vector<VertexIndex>& vertices = components.list[labels.of_vertex[v]].vertices;
+    components.row[v] = static_cast<std::uint32_t>(vertices.size());
+    vertices.push_back(v);
+  }
+  for (const auto f : mesh.faces()) components.list[labels.of_vertex[mesh.target(mesh.halfedge(f))]].faces.push_back(f);
   return components;
 }
 
-Mesh extract(const Mesh& mesh, const Component& component) {
+Mesh extract(const Mesh& mesh, const Component& component, const std::vector<std::uint32_t>& row) {
   Mesh piece;
   piece.reserve(static_cast<Mesh::size_type>(component.vertices.size()),
                 static_cast<Mesh::size_type>(3 * component.faces.size() / 2),
@@ -78,10 +82,8 @@ Mesh extract(const Mesh& mesh, const Component& component) {
     sources.push_back(same_as(v));
   }
   for (const auto f : component.faces) {
-    std::vector<VertexIndex> face;
-    for (const auto v : CGAL::vertices_around_face(mesh.halfedge(f), mesh))
-      face.push_back(VertexIndex(row_in(component, v)));
-    piece.add_face(face);
+    const auto [a, b, c] = corners(mesh, f);
+    piece.add_face(VertexIndex(row[b]), VertexIndex(row[c]), VertexIndex(row[a]));
   }
   gather_attributes(mesh, piece, sources);
   return piece;
@@ -99,13 +101,13 @@ double volume_of(const Mesh& mesh, const Component& component) {
 }
 
 /// A piece of so few faces that meets itself cannot be mended: it has no vertices to spare.
-bool is_knot(const Mesh& mesh, const Component& component) {
+bool is_knot(const Mesh& mesh, const Component& component, const std::vector<std::uint32_t>& row) {
   constexpr std::size_t most_faces = 16;
   if (component.faces.size() > most_faces) return false;
   MeshData soup;
   for (const auto f : component.faces) {
     const auto [a, b, c] = corners(mesh, f);
-    soup.triangles.push_back({row_in(component, a), row_in(component, b), row_in(component, c)});
+    soup.triangles.push_back({row[a], row[b], row[c]});
   }
   for (const auto v : component.vertices) {
     const Point& p = mesh.point(v);
@@ -141,14 +143,15 @@ void share(double lost, std::vector<Drop>& pieces) {
 
 std::vector<Mesh> connected_components(const Mesh& mesh) {
   std::vector<Mesh> pieces;
-  for (const auto& component : components_of(mesh, label_components(mesh))) pieces.push_back(extract(mesh, component));
+  const Components components = components_of(mesh);
+  for (const auto& component : components.list) pieces.push_back(extract(mesh, component, components.row));
   return pieces;
 }
 
 std::vector<Drop> split_components(Drop drop, SplitReport& report, double least_volume) {
   report = {};
   const Mesh& mesh = drop.mesh();
-  const auto components = components_of(mesh, label_components(mesh));
+  const auto [components, row] = components_of(mesh);
   if (std::none_of(components.begin(), components.end(),
                    [&](const Component& component) { return volume_of(mesh, component) >= least_volume; }))
     least_volume = 0;
@@ -157,7 +160,7 @@ std::vector<Drop> split_components(Drop drop, SplitReport& report, double least_
     const double volume = volume_of(mesh, component);
     if (!(volume > 0)) {
       ++report.deleted_empty;
-    } else if (component.faces.size() == 4 || volume < least_volume || is_knot(mesh, component)) {
+    } else if (component.faces.size() == 4 || volume < least_volume || is_knot(mesh, component, row)) {
       ++report.deleted;
       report.volume_deleted += volume;
     } else {
@@ -172,7 +175,7 @@ std::vector<Drop> split_components(Drop drop, SplitReport& report, double least_
   }
   double enclosed = 0;
   for (const auto* component : kept) {
-    pieces.emplace_back(extract(mesh, *component));
+    pieces.emplace_back(extract(mesh, *component, row));
     pieces.back().set_id(drop.id());
     enclosed += pieces.back().target_volume();
   }

@@ -223,6 +223,7 @@ void calm_seam(Drop& drop, const std::vector<std::uint32_t>& seam) {
 /// on each other but for rounding do not even bear to be moved as they are: then it gives back momentum alone.
 void give_back(std::vector<Drop>& pieces, const Ledger& ledger, const MergeOptions& options) {
   std::vector<std::array<Eigen::Matrix3Xd, 2>> start;  // positions and velocities: nothing else changes
+  start.reserve(pieces.size());
   for (const Drop& piece : pieces) start.push_back({piece.positions(), piece.velocities()});
   const auto meets_itself = [&](const Drop& piece) {
     const WatchedRegion region = guarded_region(piece, options.remesh.band.edge_max);

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "boolean_parts.h"
 
+// Without CGAL_NDEBUG, CGAL 5.5.1 passes over edges between patches that it has classified already, misses that a
+// result is no 2-manifold there, and goes round a vertex of it for ever. Its assertions are defined by now and stay on.
+#include <CGAL/assertions.h>
+#ifndef CGAL_NDEBUG
+#define CGAL_NDEBUG
+#endif
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 

@@ -67,7 +67,7 @@ void SurfaceGeometry::compute_faces(const ConstColumns& x, const Connectivity& c
     area_ = volume_ = 0;
     return;
   }
-  const FourVectors origin = {constant(x(0, 0)), constant(x(1, 0)), constant(x(2, 0))};
+  const FourVectors origin = constant(x.col(0));
   const Sums sums = sum_over_chunks(triangles.size(), Sums{}, [&](std::size_t begin, std::size_t end) {
     Four area{}, volume{};
     for (std::size_t f = begin; f < end; f += 4) {
@@ -130,7 +130,7 @@ void SurfaceGeometry::compute(const ConstColumns& x, const Connectivity& connect
 
 double enclosed_volume(const ConstColumns& x, const Connectivity& connectivity) {
   if (x.cols() == 0) return 0;
-  const FourVectors origin = {constant(x(0, 0)), constant(x(1, 0)), constant(x(2, 0))};
+  const FourVectors origin = constant(x.col(0));
   const auto& triangles = connectivity.triangles();
   return sum_over_chunks(triangles.size(), 0.0,
                          [&](std::size_t begin, std::size_t end) {

@@ -19,9 +19,6 @@ using Eigen::Vector3d;
 
 constexpr double film_thickness = 0.02, largest_sagitta = 0.25;  // of the mean length of a vertex' edges
 
-/// A film this near to what is wetted lies on it (cm): so does a vertex that was stopped at a disc.
-constexpr double touching_distance = 1e-9;
-
 /// The faces of a drop that lie on solids.
 class WettedFaces {
  public:

@@ -119,7 +119,7 @@ struct Moments {
 
 Moments moments_about(const Vector3d& o, const ConstColumns& x, const Connectivity& connectivity) {
   const auto& triangles = connectivity.triangles();
-  const FourVectors origin{constant(o.x()), constant(o.y()), constant(o.z())};
+  const FourVectors origin = constant(o);
   return sum_over_chunks(triangles.size(), Moments{}, [&](std::size_t begin, std::size_t end) {
     Four volume{};
     FourVectors first{};
@@ -129,11 +129,9 @@ Moments moments_about(const Vector3d& o, const ConstColumns& x, const Connectivi
                         c = four.corner(x.data(), 2) - origin;
       const Four w = a.dot(b.cross(c));
       volume += w;
-      first.x += w * (a.x + b.x + c.x);
-      first.y += w * (a.y + b.y + c.y);
-      first.z += w * (a.z + b.z + c.z);
+      first += w * (a + b + c);
     }
-    return Moments{sum(volume), {sum(first.x), sum(first.y), sum(first.z)}};
+    return Moments{sum(volume), sum(first)};
   });
 }
 

@@ -18,8 +18,6 @@ constexpr double most_move = 0.5, most_depth = 0.2;
 constexpr double least_turn = 1e-12;
 /// Films lower than this (in lengths of edge_min) come down no further.
 constexpr double low_film = 0.05;
-/// Vertices this near to a solid touch it (cm).
-constexpr double touching_distance = 1e-9;
 /// A patch on a solid smaller than this (in edge_min^2) comes off, if it shrinks and the drop rises: its
 /// vertices by `lift` of edge_min.
 constexpr double least_patch = 3, lift = 0.05;

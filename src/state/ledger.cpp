@@ -25,9 +25,6 @@ Vector3d reference_point(const Drop& drop) {
   return Vector3d::Zero();
 }
 
-FourVectors four_times(const Vector3d& v) { return {constant(v.x()), constant(v.y()), constant(v.z())}; }
-Vector3d sum_of(const FourVectors& v) { return {sum(v.x), sum(v.y), sum(v.z)}; }
-
 /// Integrals over the enclosed volume.
 struct VolumeMoments {
   double volume = 0;
@@ -54,7 +51,7 @@ VolumeMoments volume_moments(const Drop& drop) {
   const auto& triangles = drop.connectivity().triangles();
   const ConstColumns x = drop.positions();
   const Vector3d reference = reference_point(drop);
-  const FourVectors origin = four_times(reference);
+  const FourVectors origin = constant(reference);
   const VolumeSums sums = sum_over_chunks(triangles.size(), VolumeSums{}, [&](std::size_t begin, std::size_t end) {
     Four volume{};
     FourVectors first{}, squares{}, products{};
@@ -62,12 +59,10 @@ VolumeMoments volume_moments(const Drop& drop) {
       const FourTriangles four(triangles, k, end);
       const FourVectors p = four.corner(x.data(), 0) - origin, q = four.corner(x.data(), 1) - origin,
                         r = four.corner(x.data(), 2) - origin;
-      const FourVectors s{p.x + q.x + r.x, p.y + q.y + r.y, p.z + q.z + r.z};
+      const FourVectors s = p + q + r;
       const Four six = p.dot(q.cross(r));
       volume += six;
-      first.x += six * s.x;
-      first.y += six * s.y;
-      first.z += six * s.z;
+      first += six * s;
       squares.x += six * (p.x * p.x + q.x * q.x + r.x * r.x + s.x * s.x);
       squares.y += six * (p.y * p.y + q.y * q.y + r.y * r.y + s.y * s.y);
       squares.z += six * (p.z * p.z + q.z * q.z + r.z * r.z + s.z * s.z);
@@ -75,7 +70,7 @@ VolumeMoments volume_moments(const Drop& drop) {
       products.y += six * (p.z * p.x + q.z * q.x + r.z * r.x + s.z * s.x);
       products.z += six * (p.x * p.y + q.x * q.y + r.x * r.y + s.x * s.y);
     }
-    return VolumeSums{sum(volume) / 6, sum_of(first) / 24, sum_of(squares) / 120, sum_of(products) / 120};
+    return VolumeSums{sum(volume) / 6, sum(first) / 24, sum(squares) / 120, sum(products) / 120};
   });
   VolumeMoments moments;
   moments.volume = sums.volume;
@@ -94,8 +89,8 @@ Vector3d fitted_rotation(const Drop& drop, const SurfaceGeometry& geometry) {
   return fit_rigid_motion(drop.positions(), drop.velocities(), geometry).rotation;
 }
 
-/// The enclosed volume and its first moment; flux, and momentum for a density of 1, of a field given at vertices. Moment
-/// and momentum are about `reference`.
+/// The enclosed volume and its first moment; flux, and momentum for a density of 1, of a field given at vertices.
+/// Moment and momentum are about `reference`.
 struct Motions {
   double volume = 0, flux = 0;
   Vector3d first = Vector3d::Zero(), momentum = Vector3d::Zero();
@@ -117,7 +112,7 @@ Motions motions_of(const Drop& drop, const ConstColumns& u) {
   const ConstColumns x = drop.positions();
   Motions none;
   none.reference = reference_point(drop);
-  const FourVectors origin = four_times(none.reference);
+  const FourVectors origin = constant(none.reference);
   return sum_over_chunks(triangles.size(), none, [&](std::size_t begin, std::size_t end) {
     Four volumes{}, fluxes{};
     FourVectors first{}, momentum{};
@@ -127,17 +122,13 @@ Motions motions_of(const Drop& drop, const ConstColumns& u) {
                         r = four.corner(x.data(), 2) - origin, area = (q - p).cross(r - p);
       const Four volume = p.dot(area);
       volumes += volume;
-      first.x += volume * (p.x + q.x + r.x);
-      first.y += volume * (p.y + q.y + r.y);
-      first.z += volume * (p.z + q.z + r.z);
+      first += volume * (p + q + r);
       const Four at_p = four.corner(u.data(), 0).dot(area), at_q = four.corner(u.data(), 1).dot(area),
                  at_r = four.corner(u.data(), 2).dot(area), flux = at_p + at_q + at_r;
       fluxes += flux;
-      momentum.x += (flux + at_p) * p.x + (flux + at_q) * q.x + (flux + at_r) * r.x;
-      momentum.y += (flux + at_p) * p.y + (flux + at_q) * q.y + (flux + at_r) * r.y;
-      momentum.z += (flux + at_p) * p.z + (flux + at_q) * q.z + (flux + at_r) * r.z;
+      momentum += (flux + at_p) * p + (flux + at_q) * q + (flux + at_r) * r;
     }
-    return Motions{sum(volumes) / 6, sum(fluxes) / 6, sum_of(first) / 24, sum_of(momentum) / 24, none.reference};
+    return Motions{sum(volumes) / 6, sum(fluxes) / 6, sum(first) / 24, sum(momentum) / 24, none.reference};
   });
 }
 
@@ -150,8 +141,7 @@ void fit_momentum(Drop& drop, const SurfaceGeometry& geometry, const Vector3d& c
   for (int round = 0; round < 2; ++round) {  // the second takes the rounding of the first
     const Motions now = motions_of(drop, u);
     const double s = -now.flux / normals.flux;
-    const Vector3d c =
-        (momentum - now.momentum_about(center) - s * normals.momentum_about(center)) / normals.volume;
+    const Vector3d c = (momentum - now.momentum_about(center) - s * normals.momentum_about(center)) / normals.volume;
     for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
       if (drop.connectivity().degree(i) > 0) u.col(i) += c + s * geometry.normal(i);
   }

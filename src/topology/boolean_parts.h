@@ -18,7 +18,10 @@ inline Kernel::Triangle_3 triangle_of(const MeshView& view, std::uint32_t f) {
 }
 inline bool is_removed(const Triangle& t) { return t[0] == Connectivity::removed; }
 inline bool share_a_vertex(const Triangle& s, const Triangle& t) {
-  return std::any_of(s.begin(), s.end(), [&](std::uint32_t v) { return v == t[0] || v == t[1] || v == t[2]; });
+  bool found = false;  // all nine are compared: no branch to guess
+  for (const auto v : s)
+    for (const auto w : t) found |= v == w;
+  return found;
 }
 inline Triangle turned(const Triangle& t) { return {t[0], t[2], t[1]}; }
 

@@ -16,8 +16,6 @@ using Eigen::Vector3d;
 /// An edge that turns or stretches by more than this share of its length in a substep.
 constexpr double large_change = 0.5;
 
-using FourMasks = decltype(Four{} < Four{});
-
 FourMasks changes_much(const FourVectors& before, const FourVectors& now) {
   const FourVectors change = now - before;
   return ~(change.dot(change) < large_change * large_change * before.dot(before));
@@ -34,7 +32,7 @@ class FaceLook {
         contact_(drop.contact()),
         has_normals_(drop.workspace().geometry.faces().size() == drop.connectivity().triangles().size()),
         touches_solid_(touches_solid(drop)) {
-    if (x_.cols() > 0) origin_ = {constant(x_(0, 0)), constant(x_(1, 0)), constant(x_(2, 0))};
+    if (x_.cols() > 0) origin_ = constant(x_.col(0));
   }
 
   /// Which of four faces changed much, and which face away from the normals at their vertices.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fold_finder.h"
 
+#include "boolean_parts.h"
 #include "placed_face.h"
 
 #include <algorithm>
@@ -28,8 +29,7 @@ struct Fan {
 
 /// Of each face the vertices around which the surface is a graph over a plane, so that the faces there meet each other
 /// in nothing but what they share; for others a number that is there once.
-std::vector<std::array<std::uint32_t, 3>> graph_vertices(const MeshView& mesh,
-                                                         const std::vector<PlacedTriangle>& faces) {
+std::vector<Triangle> graph_vertices(const MeshView& mesh, const std::vector<PlacedTriangle>& faces) {
   constexpr double least_cosine = 0.1;
   std::vector<Fan> fans(static_cast<std::size_t>(mesh.points.cols()));
   for (const Triangle& t : mesh.triangles)
@@ -58,7 +58,7 @@ std::vector<std::array<std::uint32_t, 3>> graph_vertices(const MeshView& mesh,
           fan.across.dot(face.points[(k + 1) % 3] - p) <= 0 && fan.across.dot(face.points[(k + 2) % 3] - p) > 0;
     }
   }
-  std::vector<std::array<std::uint32_t, 3>> vertices;
+  std::vector<Triangle> vertices;
   vertices.reserve(faces.size());
   std::uint32_t no_vertex = ~std::uint32_t{0};
   for (const PlacedTriangle& face : faces) {
@@ -69,21 +69,13 @@ std::vector<std::array<std::uint32_t, 3>> graph_vertices(const MeshView& mesh,
   return vertices;
 }
 
-/// Whether two faces have one of those vertices in common.
-bool share(const std::array<std::uint32_t, 3>& s, const std::array<std::uint32_t, 3>& t) {
-  bool found = false;
-  for (const auto v : s)
-    for (const auto w : t) found |= v == w;
-  return found;
-}
-
 std::vector<FacePair> faces_that_meet(const MeshView& mesh, const std::vector<FaceBox>& faces,
                                       const SortedBoxes& boxes) {
   const std::vector<PlacedTriangle> placed = placed_faces(mesh, faces);
-  const std::vector<std::array<std::uint32_t, 3>> around = graph_vertices(mesh, placed);
+  const std::vector<Triangle> around = graph_vertices(mesh, placed);
   std::vector<FacePair> meeting;
   for (const auto& [a, b] : boxes.pairs_if([&](std::uint32_t a, std::uint32_t b) {
-         return !share(around[a], around[b]) && meet(placed[a], placed[b]);
+         return !boolean_parts::share_a_vertex(around[a], around[b]) && meet(placed[a], placed[b]);
        }))
     meeting.push_back({std::min(faces[a].face, faces[b].face), std::max(faces[a].face, faces[b].face)});
   std::sort(meeting.begin(), meeting.end());

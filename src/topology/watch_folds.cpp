@@ -27,6 +27,14 @@ constexpr double thin = 0.5;
 /// A drop with so many times the area of the ball of its volume is no ball, however small.
 constexpr double deformed = 1.3;
 
+bool is_on_solids(const Contact* contact, const Triangle& t) {
+  return is_colliding(contact[t[0]]) && is_colliding(contact[t[1]]) && is_colliding(contact[t[2]]);
+}
+
+void watch_face(std::uint8_t* watch, const Triangle& t) {
+  for (const auto v : t) watch[v] = std::max(watch[v], violent_watched_calls);
+}
+
 Vector3d area_vector(const MeshView& mesh, const Triangle& t) {
   const Vector3d a = mesh.points.col(t[0]);
   return (Vector3d(mesh.points.col(t[1])) - a).cross(Vector3d(mesh.points.col(t[2])) - a);
@@ -121,8 +129,7 @@ void watch_thin_places(Drop& drop, double thickness) {
     return normal[a].dot(normal[b]) < opposite && !boolean_parts::share_a_vertex(face_at(a), face_at(b));
   });
   for (const auto& [a, b] : thin_places)
-    for (const auto k : {a, b})
-      for (const auto v : face_at(k)) watch[v] = std::max(watch[v], violent_watched_calls);
+    for (const auto k : {a, b}) watch_face(watch, face_at(k));
 }
 
 /// Where normals at wetted vertices differ by less, a solid is flat under a drop.
@@ -133,9 +140,6 @@ constexpr double flat = 0.02;
 void watch_crossed_contact(Drop& drop) {
   const MeshView mesh = view_of(std::as_const(drop));
   const Contact* contact = drop.contact();
-  const auto is_wetted = [&](const Triangle& t) {
-    return is_colliding(contact[t[0]]) && is_colliding(contact[t[1]]) && is_colliding(contact[t[2]]);
-  };
   std::uint8_t* const watch = drop.seam_watch();
   const auto is_watched = [&](const Triangle& t) { return watch[t[0]] != 0 && watch[t[1]] != 0 && watch[t[2]] != 0; };
   std::vector<FaceBox> wetted;
@@ -143,7 +147,7 @@ void watch_crossed_contact(Drop& drop) {
   Eigen::AlignedBox3d region;
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
     const Triangle& t = mesh.triangles[f];
-    if (t[0] == Connectivity::removed || !is_wetted(t) || is_watched(t)) continue;
+    if (t[0] == Connectivity::removed || !is_on_solids(contact, t) || is_watched(t)) continue;
     wetted.push_back({box_of(mesh, t), f});
     placed.push_back(placed_face(mesh, f));
     region.extend(wetted.back().box);
@@ -152,12 +156,12 @@ void watch_crossed_contact(Drop& drop) {
   const SortedBoxes near(wetted);
   for (const FaceBox& face : faces_in(mesh, region)) {
     const Triangle& t = mesh.triangles[face.face];
-    if (is_wetted(t) || is_watched(t)) continue;
+    if (is_on_solids(contact, t) || is_watched(t)) continue;
     const PlacedTriangle own = placed_face(mesh, face.face);
     near.for_each_meeting(face.box, [&](std::uint32_t k) {
       if (!meet(own, placed[k])) return;
-      for (const auto v : t) watch[v] = std::max(watch[v], violent_watched_calls);
-      for (const auto v : mesh.triangles[wetted[k].face]) watch[v] = std::max(watch[v], violent_watched_calls);
+      watch_face(watch, t);
+      watch_face(watch, mesh.triangles[wetted[k].face]);
     });
   }
 }
@@ -167,8 +171,7 @@ void watch_crossed_contact(Drop& drop) {
 void watch_faces(Drop& drop, const std::vector<std::uint8_t>& marked) {
   std::uint8_t* const watch = drop.seam_watch();
   for (std::size_t f = 0; f < marked.size(); ++f)
-    if (marked[f] != 0)
-      for (const auto v : drop.connectivity().triangles()[f]) watch[v] = std::max(watch[v], violent_watched_calls);
+    if (marked[f] != 0) watch_face(watch, drop.connectivity().triangles()[f]);
 }
 
 void watch_bends(Drop& drop) {
@@ -180,12 +183,9 @@ void watch_bends(Drop& drop) {
   const ConstColumns n = std::as_const(drop).contact_normals();
   const auto turns = [&](std::uint32_t a, std::uint32_t b) { return n.col(a).dot(n.col(b)) < cosine_of_bend; };
   std::uint8_t* const watch = drop.seam_watch();
-  for (const auto& [a, b, c] : drop.connectivity().triangles()) {
-    if (a == Connectivity::removed || !is_colliding(contact[a]) || !is_colliding(contact[b]) ||
-        !is_colliding(contact[c]))
-      continue;
-    if (turns(a, b) || turns(b, c) || turns(c, a))
-      for (const auto w : {a, b, c}) watch[w] = std::max(watch[w], violent_watched_calls);
+  for (const Triangle& t : drop.connectivity().triangles()) {
+    if (t[0] == Connectivity::removed || !is_on_solids(contact, t)) continue;
+    if (turns(t[0], t[1]) || turns(t[1], t[2]) || turns(t[2], t[0])) watch_face(watch, t);
   }
 }
 

@@ -26,7 +26,7 @@ double expected_volume(BooleanOperation operation, double a, double b, double co
 /// Needles whose volume is all rounding: `check` cannot tell their inside, so they are refused.
 bool may_be_refused(const Case& c) { return c.name.rfind("a needle of 1e-", 0) == 0 && c.name != "a needle of 1e-3"; }
 
-/// Every eighth case: exact volumes take long under sanitizers, and tests run side by side.
+/// Every eighth case, so that they run side by side.
 class EighthOfBooleanBattery : public testing::TestWithParam<std::size_t> {};
 constexpr std::size_t eighths = 8;
 

@@ -16,7 +16,7 @@
 namespace meniscus {
 
 using Four = Lanes;
-using FourFlags = decltype(Four{} < Four{});  ///< of a comparison: all bits of a lane, or none
+using FourMasks = decltype(Four{} < Four{});  ///< of a comparison: all bits of a lane, or none
 
 inline Four constant(double value) { return Four{value, value, value, value}; }
 inline Four square_root(Four v) {
@@ -25,11 +25,11 @@ inline Four square_root(Four v) {
   return v;
 }
 /// Bit k is set where a comparison holds in lane k.
-inline unsigned lanes_where(const FourFlags& flags) {
+inline unsigned lanes_where(const FourMasks& masks) {
 #ifdef __AVX__
-  return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<const __m256d&>(flags)));
+  return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<const __m256d&>(masks)));
 #else
-  return (flags[0] & 1) | (flags[1] & 2) | (flags[2] & 4) | (flags[3] & 8);
+  return (masks[0] & 1) | (masks[1] & 2) | (masks[2] & 4) | (masks[3] & 8);
 #endif
 }
 inline double sum(const Four& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
@@ -38,10 +38,16 @@ inline double sum(const Four& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 struct FourVectors {
   Four x, y, z;
 
+  FourVectors operator+(const FourVectors& o) const { return {x + o.x, y + o.y, z + o.z}; }
   FourVectors operator-(const FourVectors& o) const { return {x - o.x, y - o.y, z - o.z}; }
+  FourVectors& operator+=(const FourVectors& o) { return *this = *this + o; }
   FourVectors cross(const FourVectors& o) const { return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x}; }
   Four dot(const FourVectors& o) const { return x * o.x + y * o.y + z * o.z; }
 };
+
+inline FourVectors operator*(const Four& s, const FourVectors& v) { return {s * v.x, s * v.y, s * v.z}; }
+inline FourVectors constant(const Eigen::Vector3d& v) { return {constant(v.x()), constant(v.y()), constant(v.z())}; }
+inline Eigen::Vector3d sum(const FourVectors& v) { return {sum(v.x), sum(v.y), sum(v.z)}; }
 
 /// The corners of triangles [first, first + 4). Those that were removed, and those beyond the last, have their three
 /// corners at row 0: no area, no volume.

@@ -10,11 +10,14 @@
 
 namespace meniscus {
 
-/// Puts free vertices that sank into a solid through the drop's own wetted area above it again, by 0.02 of the mean
-/// length of their edges: in between there is liquid, too thin for the mesh to show. So, too, those so low over a
-/// convex solid that it would come through their faces. What sank in beside the wetted area is left to the next step's
-/// collisions. For the end of a substep, after operators that move the free surface without looking at solids. Not in
-/// the paper.
+/// cm: vertices this near to a solid touch it.
+inline constexpr double touching_distance = 1e-9;
+
+/// Puts free vertices that sank into a solid through the drop's own wetted area, or touch that, above it again, by 0.02
+/// of the mean length of their edges: in between there is liquid, too thin for the mesh to show. So, too, those so low
+/// over a convex solid that it would come through their faces. What sank in beside the wetted area is left to the next
+/// step's collisions. For the end of a substep, after operators that move the free surface without looking at solids.
+/// Not in the paper.
 ///
 /// Reads contact state and solids at `time` (s); writes positions (cm) of free vertices,
 /// and takes from their velocities (cm/s) what would go into the solid. Vertices up to `low` (cm) above the

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meniscus/operators/external_forces.h"
 
+#include "meniscus/core/chunks.h"
 #include "meniscus/core/error.h"
 #include "meniscus/operators/lift_films.h"
 #include "meniscus/state/contact_line.h"
@@ -21,24 +22,39 @@ constexpr int max_collision_passes = 3;
 constexpr double least_turn_cosine = 0.8660254037844387;  // 30 degrees
 constexpr int most_halvings = 5;
 
+/// Where a drop fell to.
+struct Fallen {
+  Eigen::AlignedBox3d box;
+  Vector3d sum;  // of positions and velocities: finite if all are
+
+  Fallen& operator+=(const Fallen& other) {
+    box.extend(other.box);
+    sum += other.sum;
+    return *this;
+  }
+};
+
 /// v += g dt; x += v dt. Returns the box of the new positions; throws if it is not finite.
 Eigen::AlignedBox3d fall(Drop& drop, const Vector3d& gravity, double dt) {
-  Columns x = drop.positions(), v = drop.velocities();
-  const std::uint16_t* degree = drop.connectivity().degrees();
-  Eigen::AlignedBox3d box;
-  Vector3d sum = Vector3d::Zero();
-  const Vector3d dv = gravity * dt;
-  for (Eigen::Index i = 0; i < x.cols(); ++i) {
-    if (degree[i] == 0) continue;
-    v.col(i) += dv;
-    x.col(i) += v.col(i) * dt;
-    box.extend(Vector3d(x.col(i)));
-    sum += x.col(i) + v.col(i);
-  }
-  if (!sum.allFinite())
+  const Fallen fallen = sum_over_chunks(drop.num_rows(), Fallen{{}, Vector3d::Zero()}, [&](std::size_t begin, std::size_t end) {
+    Columns x = drop.positions(), v = drop.velocities();
+    const std::uint16_t* const degree = drop.connectivity().degrees();
+    const Vector3d dv = gravity * dt;
+    Eigen::AlignedBox3d box;
+    Vector3d sum = Vector3d::Zero();
+    for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i) {
+      if (degree[i] == 0) continue;
+      v.col(i) += dv;
+      x.col(i) += v.col(i) * dt;
+      box.extend(Vector3d(x.col(i)));
+      sum += x.col(i) + v.col(i);
+    }
+    return Fallen{box, sum};
+  });
+  if (!fallen.sum.allFinite())
     throw NumericsError(
         fmt::format("drop {}: a position or velocity is no longer finite; use a smaller time step", drop.id()));
-  return box;
+  return fallen.box;
 }
 
 /// Marks in `wet` the colliding vertices that belong to a wetted face.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "meniscus/core/chunks.h"
 #include "meniscus/core/error.h"
 #include "meniscus/geometry/rigid_motion.h"
 #include "meniscus/state/judge.h"
@@ -47,8 +48,15 @@ void restore_velocity(Drop* drop, std::vector<Drop>& cut_off, std::size_t first,
   std::for_each(cut_off.begin() + static_cast<std::ptrdiff_t>(first), cut_off.end(), add);
   if (!(volume > 0)) return;
   const Eigen::Vector3d missing = velocity - momentum / volume;
-  if (drop) drop->velocities().colwise() += missing;
-  for (std::size_t p = first; p < cut_off.size(); ++p) cut_off[p].velocities().colwise() += missing;
+  const auto push = [&](Drop& piece) {
+    Columns v = piece.velocities();
+    for_each_chunk(piece.num_rows(), [&](std::size_t begin, std::size_t end) {
+      const auto row = static_cast<Eigen::Index>(begin), count = static_cast<Eigen::Index>(end - begin);
+      v.middleCols(row, count).colwise() += missing;
+    });
+  };
+  if (drop) push(*drop);
+  std::for_each(cut_off.begin() + static_cast<std::ptrdiff_t>(first), cut_off.end(), push);
 }
 
 void keep_inflow(std::vector<Drop>& pieces, const std::vector<Solid>& solids, double inflow) {

@@ -17,7 +17,7 @@ namespace chunks {
 inline constexpr std::size_t least_rows = 8192;
 inline constexpr std::size_t most = 32;
 inline std::size_t count(std::size_t rows, std::size_t least = least_rows) {
-  return rows <= least ? 1 : std::min(most, rows / (least / 4));
+  return rows <= least ? 1 : std::min(most, rows / least * 4);
 }
 inline std::size_t begin(std::size_t rows, std::size_t chunk, std::size_t count) { return rows * chunk / count; }
 }  // namespace chunks

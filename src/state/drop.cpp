@@ -102,28 +102,25 @@ bool Drop::collect_garbage(double share) {
 
 Eigen::AlignedBox3d bounding_box(const Drop& drop) {
   const ConstColumns x = drop.positions();
+  const std::uint16_t* const degree = drop.connectivity().degrees();
   Eigen::AlignedBox3d box;
-  const Eigen::Index n = x.cols();
-  if (n == 0) return box;
-  if (drop.mesh().number_of_removed_vertices() > 0) {
-    for (std::uint32_t i = 0; i < drop.num_rows(); ++i)
-      if (drop.connectivity().degree(i) > 0) box.extend(Eigen::Vector3d(x.col(i)));
-    return box;
-  }
   // Four points are three registers of four numbers.
   using Twelve = Eigen::Array<double, 12, 1>;
-  const auto four_points = [&](Eigen::Index i) { return Eigen::Map<const Twelve>(x.data() + 3 * i); };
-  Twelve least = x.col(0).replicate<4, 1>(), most = least;
-  Eigen::Index i = 0;
-  for (; i + 4 <= n; i += 4) {
-    least = least.min(four_points(i));
-    most = most.max(four_points(i));
+  Twelve least = box.min().replicate<4, 1>(), most = box.max().replicate<4, 1>();
+  const Eigen::Index n = x.cols();
+  for (Eigen::Index first = 0; first < n; first += 4) {
+    const std::uint16_t* const d = degree + first;
+    if (first + 4 <= n && d[0] != 0 && d[1] != 0 && d[2] != 0 && d[3] != 0) {
+      const Eigen::Map<const Twelve> points(x.data() + 3 * first);
+      least = least.min(points);
+      most = most.max(points);
+    } else {
+      for (Eigen::Index i = first; i < std::min(first + 4, n); ++i)
+        if (degree[i] != 0) box.extend(Eigen::Vector3d(x.col(i)));
+    }
   }
-  for (Eigen::Index k = 0; k < 4; ++k) {
-    box.extend(Eigen::Vector3d(least.segment<3>(3 * k)));
-    box.extend(Eigen::Vector3d(most.segment<3>(3 * k)));
-  }
-  for (; i < n; ++i) box.extend(Eigen::Vector3d(x.col(i)));
+  for (Eigen::Index k = 0; k < 4; ++k)
+    box.extend(Eigen::AlignedBox3d(Eigen::Vector3d(least.segment<3>(3 * k)), Eigen::Vector3d(most.segment<3>(3 * k))));
   return box;
 }
 

@@ -36,21 +36,22 @@ struct Fallen {
 
 /// v += g dt; x += v dt. Returns the box of the new positions; throws if it is not finite.
 Eigen::AlignedBox3d fall(Drop& drop, const Vector3d& gravity, double dt) {
-  const Fallen fallen = sum_over_chunks(drop.num_rows(), Fallen{{}, Vector3d::Zero()}, [&](std::size_t begin, std::size_t end) {
-    Columns x = drop.positions(), v = drop.velocities();
-    const std::uint16_t* const degree = drop.connectivity().degrees();
-    const Vector3d dv = gravity * dt;
-    Eigen::AlignedBox3d box;
-    Vector3d sum = Vector3d::Zero();
-    for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i) {
-      if (degree[i] == 0) continue;
-      v.col(i) += dv;
-      x.col(i) += v.col(i) * dt;
-      box.extend(Vector3d(x.col(i)));
-      sum += x.col(i) + v.col(i);
-    }
-    return Fallen{box, sum};
-  });
+  const Fallen fallen =
+      sum_over_chunks(drop.num_rows(), Fallen{{}, Vector3d::Zero()}, [&](std::size_t begin, std::size_t end) {
+        Columns x = drop.positions(), v = drop.velocities();
+        const std::uint16_t* const degree = drop.connectivity().degrees();
+        const Vector3d dv = gravity * dt;
+        Eigen::AlignedBox3d box;
+        Vector3d sum = Vector3d::Zero();
+        for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i) {
+          if (degree[i] == 0) continue;
+          v.col(i) += dv;
+          x.col(i) += v.col(i) * dt;
+          box.extend(Vector3d(x.col(i)));
+          sum += x.col(i) + v.col(i);
+        }
+        return Fallen{box, sum};
+      });
   if (!fallen.sum.allFinite())
     throw NumericsError(
         fmt::format("drop {}: a position or velocity is no longer finite; use a smaller time step", drop.id()));

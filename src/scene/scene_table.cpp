@@ -10,8 +10,7 @@
 #include <utility>
 
 // Reads or writes a member, whether its owner is const or not.
-#define MENISCUS_FIELD(member) \
-  ([](auto& owner) -> auto& { return owner.member; })
+#define MENISCUS_FIELD(member) ([](auto& owner) -> auto& { return owner.member; })
 
 namespace meniscus::scene_detail {
 namespace {

@@ -38,8 +38,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "fed_piece_loses_speck", "jet_evens_out_through_disc", "solid_bulges_into_film",
                     "union_shuts_in_a_speck", "curtain_in_tatters", "knot_is_hurried", "sheets_do_not_bear_a_shift",
                     "liquid_runs_off_disc", "free_points_on_shared_plane", "drop_passes_disc_from_behind",
-                    "mending_turns_box", "wetted_vertex_through_line",
-                    "vertex_stopped_at_disc"),
+                    "mending_turns_box", "wetted_vertex_through_line", "vertex_stopped_at_disc"),
     [](const auto& scene) { return scene.param; });
 
 /// Parts of a contact line that meet become one: then nothing crosses any more, and nothing has to be taken back.

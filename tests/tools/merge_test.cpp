@@ -31,7 +31,8 @@ TEST_F(Merge, UnitesIntersectsAndSubtracts) {
 
 TEST_F(Merge, ManyAtOnceFromAPipe) {
   const Outcome outcome = shell(
-      "cat far.off | \"$MENISCUS\" merge a.off - b.off -o - --format off -q | \"$MENISCUS\" check - --format off --json -");
+      "cat far.off | \"$MENISCUS\" merge a.off - b.off -o - --format off -q | \"$MENISCUS\" check - --format off "
+      "--json -");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const json r = json::parse(outcome.out);
   EXPECT_EQ(r[0]["components"], 2);
@@ -75,8 +76,7 @@ TEST_F(Merge, RefusesWhatIsNotSoundAndMendsItIfAsked) {
 
 TEST_F(Merge, SaysWhyAndSavesThePairThatFails) {
   write("c.off", make_box({2, 2, 0}, {2, 2, 2}, 9));  // touches along an edge
-  const Outcome refused =
-      tool("merge a.off c.off -o d.off --max-shift 0 --save-failing failing --json report.json");
+  const Outcome refused = tool("merge a.off c.off -o d.off --max-shift 0 --save-failing failing --json report.json");
   EXPECT_EQ(refused.code, 4);
   EXPECT_EQ(report("report.json")["reason"], "pinched");
   EXPECT_TRUE(has(refused.err, "2-manifold")) << refused.err;
@@ -96,11 +96,12 @@ TEST_F(Merge, AnEmptyResultIsRefused) {
 }
 
 TEST_F(Merge, MistakesAreUsageErrors) {
-  for (const char* arguments : {"merge a.off b.off", "merge -o c.off", "merge a.off b.off -o c.off --operation sum",
-                                "merge a.off b.off -o c.off --max-shift 2", "split a.off -o 'p_{}.off' --plane 0,0,1",
-                                "split a.off -o 'p_{}.off' --plane 0,0,0,1", "split a.off -o 'p_{}.off' --plane 0,0,x,1",
-                                "split a.off -o 'p_{}.off' --plane 0,0,1,0 --cutter b.off",
-                                "split a.off -o 'p_{}.off' --plane 0,0,1,0 --neck 0.1"})
+  for (const char* arguments :
+       {"merge a.off b.off", "merge -o c.off", "merge a.off b.off -o c.off --operation sum",
+        "merge a.off b.off -o c.off --max-shift 2", "split a.off -o 'p_{}.off' --plane 0,0,1",
+        "split a.off -o 'p_{}.off' --plane 0,0,0,1", "split a.off -o 'p_{}.off' --plane 0,0,x,1",
+        "split a.off -o 'p_{}.off' --plane 0,0,1,0 --cutter b.off",
+        "split a.off -o 'p_{}.off' --plane 0,0,1,0 --neck 0.1"})
     EXPECT_EQ(tool(arguments).code, 2) << arguments;
 }
 

@@ -41,7 +41,9 @@ int convert_frame(const ConvertOptions& options, FrameFormat format) {
   return run_reported(options.common, [&](Report& report) {
     const MeshData data = report.timed([&] { return read_input(options.input, options.common); });
     report.add_input(options.input, data);
-    report.timed([&] { write_frame(options.output, format, data, frame_time(data).value_or(0)); });
+    report.timed([&] {
+      naming(options.input, [&] { write_frame(options.output, format, data, frame_time(data).value_or(0)); });
+    });
     if (options.common.has_report()) report.add_output(options.output, data);
   });
 }

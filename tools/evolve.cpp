@@ -19,7 +19,8 @@ struct EvolveOptions {
   std::vector<std::string> inputs, settings;
   std::string output, frames_as = "ply", gravity;
   std::optional<double> time_step;
-  std::optional<int> frames, steps;
+  std::optional<int> frames;
+  std::optional<std::int64_t> steps;
   int checkpoint_every = 10;
   bool dry_run = false, no_frames = false, resume = false, overwrite = false, verify = false;
 };
@@ -73,6 +74,10 @@ Scene read_input_scene(const EvolveOptions& options) {
   return scene_of_meshes(options);
 }
 
+bool is_piped(const EvolveOptions& options) {
+  return std::find(options.inputs.begin(), options.inputs.end(), "-") != options.inputs.end();
+}
+
 /// Drops that came through stdin, which no scene can name: then all meshes are read here.
 std::optional<std::vector<Drop>> read_piped_drops(const EvolveOptions& options, Scene& scene) {
   const auto pipes = std::count(options.inputs.begin(), options.inputs.end(), "-");
@@ -90,36 +95,61 @@ std::optional<std::vector<Drop>> read_piped_drops(const EvolveOptions& options, 
   return drops;
 }
 
-/// Frames that a run would replace must not be what it starts from.
-void check_inputs_survive(const EvolveOptions& options, const Scene& scene) {
-  if (options.no_frames) return;
-  const std::filesystem::path output = std::filesystem::weakly_canonical(options.output);
-  for (const DropSpec& drop : scene.drops) {
-    if (drop.shape != DropShape::mesh) continue;
-    const std::filesystem::path file = std::filesystem::weakly_canonical(scene.locate(drop.file));
-    if (file.parent_path() == output && is_frame_name(file.filename().string()))
-      throw UsageError(fmt::format("{}: lies in {}, whose frames this run replaces; choose another directory with -o",
-                                   drop.file.string(), options.output));
-  }
+/// What a run writes must not replace what it starts from, nor its report what it writes.
+void check_files_survive(const EvolveOptions& options, const Scene& scene) {
+  const auto place_of = [](const std::filesystem::path& file) {
+    std::error_code error;
+    const std::filesystem::path place = std::filesystem::weakly_canonical(file, error);
+    return error ? file : place;
+  };
+  const std::filesystem::path output = place_of(options.output);
+  const auto is_written = [&](const std::filesystem::path& file) {
+    const std::filesystem::path place = place_of(file);
+    const std::string name = place.filename().string();
+    return place.parent_path() == output &&
+           (name == "run.json" || name == "measures.csv" || (!options.no_frames && is_frame_name(name)));
+  };
+  std::vector<std::filesystem::path> read;
+  if (!options.resume)  // else a checkpoint has them
+    for (const DropSpec& drop : scene.drops)
+      if (drop.shape == DropShape::mesh) read.push_back(scene.locate(drop.file));
+  for (const SolidSpec& solid : scene.solids)
+    if (solid.shape == SolidShape::mesh) read.push_back(scene.locate(solid.file));
+  if (!options.inputs.empty() && is_scene(options.inputs.front())) read.push_back(options.inputs.front());
+  for (const std::filesystem::path& file : read)
+    if (is_written(file))
+      throw UsageError(
+          fmt::format("{}: lies in {}, whose frames and reports this run replaces; choose another directory "
+                      "with -o",
+                      file.string(), options.output));
+  const std::string& report = options.common.json;
+  if (!report.empty() && report != "-" && is_written(report))
+    throw UsageError(fmt::format("--json {}: the run writes that file itself; choose another name", report));
 }
 
 /// What a run starts from: the scene and drops of the command line, or a checkpoint.
 void read_start(const EvolveOptions& options, RunPlan& plan) {
   plan.inputs = options.inputs;
   if (options.resume) plan.resume = find_resume_point(options.output, options.common.console());
+  plan.is_complete = options.resume && !plan.resume && is_run_complete(options.output);
+  if (plan.is_complete && options.inputs.empty())
+    return check_asks_no_more(options.output, nullptr, options.frames, options.steps);
   if (options.inputs.empty() && !plan.resume)
     throw UsageError(options.resume
                          ? fmt::format("--resume: {} holds no checkpoint; name the scene to start with", options.output)
                          : "SCENE is required: a scene (.json), or meshes to evolve in the default one");
   if (!plan.resume) {
     plan.scene = read_input_scene(options);
+    if (plan.is_complete && is_piped(options)) plan.scene.drops.clear();
+    if (plan.is_complete) return check_asks_no_more(options.output, &plan.scene, std::nullopt, options.steps);
     plan.drops = read_piped_drops(options, plan.scene);
+    plan.solids = solid_checksums(plan.scene);
     return;
   }
   plan.scene = plan.resume->scene;
   if (!options.inputs.empty()) {
     plan.scene = read_input_scene(options);
-    if (std::find(options.inputs.begin(), options.inputs.end(), "-") != options.inputs.end()) plan.scene.drops.clear();
+    if (is_piped(options)) plan.scene.drops.clear();
     check_same_scene(*plan.resume, plan.scene);
   } else {
     if (!all_settings(options).empty() && !options.frames)
@@ -127,6 +157,8 @@ void read_start(const EvolveOptions& options, RunPlan& plan) {
     plan.inputs = plan.resume->inputs;
     if (options.frames) plan.scene.frames = *options.frames;
   }
+  check_same_solids(*plan.resume, plan.scene);
+  plan.solids = plan.resume->solids;
 }
 
 int evolve(const EvolveOptions& options) {
@@ -135,7 +167,7 @@ int evolve(const EvolveOptions& options) {
   plan.overwrite = options.overwrite;
   if (options.resume && !options.dry_run && std::filesystem::exists(options.output)) plan.lock.emplace(options.output);
   read_start(options, plan);
-  if (options.resume && !plan.resume && is_run_complete(options.output)) {
+  if (plan.is_complete) {
     options.common.console().say(fmt::format("{}: the run is complete; there is nothing to resume", options.output));
     return done;
   }
@@ -146,7 +178,7 @@ int evolve(const EvolveOptions& options) {
   plan.checkpoint_every = options.checkpoint_every;
   plan.frame_options.density = plan.scene.liquid.density;
   plan.steps = options.steps ? *options.steps : std::int64_t{plan.scene.frames} * plan.scene.steps_per_frame;
-  check_inputs_survive(options, plan.scene);
+  check_files_survive(options, plan.scene);
   return run_evolution(std::move(plan), options.common);
 }
 

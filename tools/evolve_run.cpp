@@ -70,6 +70,11 @@ class Evolution {
         progress_(console_),
         simulation_(make_simulation(plan_)),
         statistics_(simulation_) {
+    if (plan_.steps < num_steps())
+      throw UsageError(
+          fmt::format("--resume: the checkpoint in {} is at step {} already, and {} are asked for; ask for as "
+                      "many at least",
+                      plan_.output.string(), num_steps(), plan_.steps));
     simulation_.set_clock(&seconds_now);
     if (plan_.verify) simulation_.set_verify(Verify::everything);
     safe_time_step_ = simulation_.choice().substeps *
@@ -203,7 +208,7 @@ class Evolution {
     archive("simulation", simulation_);
     archive("statistics", statistics_);
     nlohmann::json state = archive.state();
-    state["run"] = describe_run(plan_.scene, plan_.inputs);
+    state["run"] = describe_run(plan_.scene, plan_.inputs, plan_.solids);
     return state;
   }
 

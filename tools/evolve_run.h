@@ -20,12 +20,14 @@ struct RunPlan {
   std::filesystem::path output;  ///< the directory of frames
   FrameOptions frame_options;
   std::vector<std::string> inputs;  ///< as on the command line
+  std::vector<std::string> solids;  ///< solid_checksums when the run began
   Scene scene;
   std::optional<std::vector<Drop>> drops;  ///< instead of the scene's
   std::int64_t steps = 0;
   int checkpoint_every = 10;  ///< frames; 0: only if the run is interrupted
   bool verify = false;        ///< ask the independent judge after each step
   bool dry_run = false;
+  bool is_complete = false;             ///< `output` holds the whole run; nothing is to be done
   bool overwrite = false;               ///< an interrupted run that lies in `output`
   std::optional<DirectoryLock> lock;    ///< on `output`; run_evolution takes it if nobody has before
   std::unique_ptr<ResumePoint> resume;  ///< or nullptr: from the start

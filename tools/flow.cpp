@@ -42,6 +42,22 @@ const char* method_name(SolverMethod method) {
   return "cholesky";
 }
 
+/// Offsets the surface until the volume fits; the normals of the first offset may not reach it.
+void keep_volume(Drop& drop, const FlowOptions& options) {
+  constexpr int most_offsets = 10;
+  constexpr double tolerance = 1e-9;
+  SurfaceGeometry& geometry = drop.workspace().geometry;
+  for (int k = 0; k < most_offsets; ++k) {
+    if (k > 0) geometry.compute(std::as_const(drop).positions(), drop.connectivity());
+    const VolumeCorrectionReport report = correct_volume(drop, geometry, *options.dt, VolumeCorrectionOptions{});
+    if (std::abs(report.relative_error) < tolerance) return;
+  }
+  throw NumericsError(
+      fmt::format("{}: a step changes the shape so much that no offset keeps its volume; take smaller "
+                  "steps (--dt)",
+                  shown_name(options.input)));
+}
+
 void step(Drop& drop, const FlowOptions& options, Solves& solves) {
   SurfaceGeometry& geometry = drop.workspace().geometry;
   geometry.compute(std::as_const(drop).positions(), drop.connectivity());
@@ -51,7 +67,7 @@ void step(Drop& drop, const FlowOptions& options, Solves& solves) {
   solves.iterations += solve.iterations;
   solves.worst_residual = std::max(solves.worst_residual, solve.relative_residual);
   solves.method = solve.method;
-  if (options.keep_volume) correct_volume(drop, geometry, *options.dt, VolumeCorrectionOptions{});
+  if (options.keep_volume) keep_volume(drop, options);
 }
 
 void flow(Drop& drop, const FlowOptions& options, Solves& solves, Progress& progress) {

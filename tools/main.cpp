@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
@@ -81,6 +82,34 @@ void parse(CLI::App& app, int argc, char** argv) {
     if (const std::string extras = describe_extras(app); !extras.empty()) throw UsageError(extras);
 }
 
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  const auto whole = [](const std::string& name) {
+    return (std::filesystem::current_path() / name).lexically_normal();
+  };
+  return whole(a) == whole(b);
+}
+
+/// Throws UsageError if a report or a page would replace a file that the command line names for something else.
+void check_reports_are_apart(const CLI::App& app) {
+  for (const CLI::App* verb : app.get_subcommands())
+    for (const char* name : {"--json", "--html"}) {
+      const CLI::Option* report = verb->get_option_no_throw(name);
+      if (!report || report->count() == 0 || report->as<std::string>() == "-") continue;
+      const std::string file = report->as<std::string>();
+      std::vector<std::string> others = verb->remaining();
+      for (const CLI::Option* option : verb->get_options())
+        if (option != report) others.insert(others.end(), option->results().begin(), option->results().end());
+      for (const std::string& other : others)
+        if (is_same_file(file, other))
+          throw UsageError(
+              fmt::format("{} {}: the command line names that file for something else, too, which would be "
+                          "lost; choose another name",
+                          name, file));
+    }
+}
+
 std::unique_ptr<tbb::global_control> limit_threads(const CLI::App& app) {
   for (const CLI::App* verb : app.get_subcommands())
     if (const CLI::Option* threads = verb->get_option_no_throw("--threads"); threads && threads->count() > 0)
@@ -114,6 +143,7 @@ int run_command(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);
   }
+  check_reports_are_apart(app);
   const auto threads = limit_threads(app);
   return run();
 }
@@ -145,6 +175,10 @@ int main(int argc, char** argv) {
     return tools::fail(4, error);
   } catch (const NumericsError& error) {
     return tools::fail(5, error);
+  } catch (const std::filesystem::filesystem_error& error) {
+    const std::string reason = error.code().message();
+    tools::say_error(fmt::format("{}: {}; check the name and its permissions", error.path1().string(), reason));
+    return 3;
   } catch (const std::bad_alloc&) {
     tools::say_error("out of memory; use a smaller mesh or a coarser band");
     return 5;

@@ -35,6 +35,8 @@ RemeshOptions library_options(const RemeshVerbOptions& options) {
   remesh.band = band_of(options);
   remesh.max_passes = options.passes;
   remesh.smoothing = options.smoothing.value_or(0);
+  if (options.features && *options.features > 180)
+    throw UsageError(fmt::format("--features: faces turn by at most 180 degrees, not by {}", *options.features));
   if (options.features) remesh.feature_angle = *options.features * radians;
   check_options(remesh);
   return remesh;

@@ -61,7 +61,15 @@ MeshData cutter_of(const MeshData& data, const SplitOptions& options, Report& re
 std::vector<MeshData> cut(const MeshData& data, const SplitOptions& options, Report& report) {
   const MeshData cutter = cutter_of(data, options, report);
   MeshMergeReport merged;
-  const auto parts = report.timed([&] { return divide(data, cutter, {}, merged); });
+  const auto parts = report.timed([&] {
+    try {
+      return divide(data, cutter, {}, merged);
+    } catch (const GeometryError& error) {
+      const bool is_input = options.cutter.empty() || !inspect(data).sound;
+      throw GeometryError(shown_name(is_input ? options.input : options.cutter) + ": " + error.what(), error.faces(),
+                          error.vertices());
+    }
+  });
   report.add("retries", merged.retries);
   report.add("shift", merged.shift);
   if (!parts) {

@@ -23,12 +23,6 @@ constexpr std::size_t num_kept = 2;
 constexpr std::string_view mark = "meniscus checkpoint ";
 constexpr std::string_view start = "checkpoint_", end = ".bin";
 
-std::uint32_t checksum(std::string_view bytes) {
-  boost::crc_32_type crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  return crc.checksum();
-}
-
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
   throw FileError(fmt::format("{}: {}; resume from an older checkpoint, or start over", name, what));
 }
@@ -81,6 +75,12 @@ void remove_file(const fs::path& file) {
 }
 
 }  // namespace
+
+std::uint32_t checksum(std::string_view bytes) {
+  boost::crc_32_type crc;
+  crc.process_bytes(bytes.data(), bytes.size());
+  return crc.checksum();
+}
 
 std::string checkpoint_name(std::int64_t step) { return fmt::format("{}{:08}{}", start, step, end); }
 

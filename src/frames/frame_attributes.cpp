@@ -51,7 +51,10 @@ std::vector<std::array<float, 3>> vertex_normals(const MeshData& data) {
 void check_finite(const MeshData& data) {
   for (std::size_t v = 0; v < data.points.size(); ++v)
     for (const double x : data.points[v])
-      if (!std::isfinite(x)) throw GeometryError(fmt::format("vertex {} is not at a finite place", v), {}, {v});
+      if (!std::isfinite(static_cast<float>(x)))
+        throw GeometryError(
+            fmt::format("vertex {} is at {:g}, which is no finite number in the single precision of this format", v, x),
+            {}, {v});
   for (const VertexAttribute& attribute : data.attributes)
     for (std::size_t v = 0; v < attribute.values.size() && is_velocity(attribute); ++v)
       if (!std::isfinite(attribute.values[v]))

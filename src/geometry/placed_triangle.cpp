@@ -67,8 +67,8 @@ PlacedTriangle::PlacedTriangle(const std::array<std::uint32_t, 3>& its_vertices,
   normal = u.cross(v);
   const double length_u = u.lpNorm<1>(), length_v = v.lpNorm<1>(), size = length_u * length_v;
   reach = length_u + length_v;
-  const bool has_plane = normal.squaredNorm() > least_sine * least_sine * size * size;
-  rounding = has_plane ? rounding_of_product * size : std::numeric_limits<double>::infinity();
+  const bool is_wide = normal.squaredNorm() > least_sine * least_sine * size * size;
+  rounding = is_wide ? rounding_of_product * size : std::numeric_limits<double>::infinity();
 }
 
 bool meet(const PlacedTriangle& s, const PlacedTriangle& t) {

@@ -23,8 +23,8 @@ std::string with_article(const std::string& noun) {
 
 class KeyReader {
  public:
-  KeyReader(const std::filesystem::path& directory, std::vector<Problem>& problems)
-      : directory_(directory), problems_(problems) {}
+  KeyReader(const std::filesystem::path& directory, SceneFiles files, std::vector<Problem>& problems)
+      : directory_(directory), files_(files), problems_(problems) {}
 
   // An object with the keys of the table. `shape` narrows them; `noun` names the object in messages.
   void read_object(const Node& node, const std::string& pointer, const std::vector<Key>& keys, void* owner,
@@ -194,11 +194,15 @@ class KeyReader {
   }
 
   std::string wrong_file(const std::string& name) const {
+    if (files_ == SceneFiles::not_looked_for) return {};
     const std::filesystem::path path = (directory_ / name).lexically_normal();
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (std::filesystem::is_regular_file(status)) return {};
     if (std::filesystem::is_directory(status)) return fmt::format("\"{}\" is a directory", path.string());
+    if (status.type() != std::filesystem::file_type::not_found)
+      return fmt::format("\"{}\" cannot be read ({})", path.string(),
+                         error ? error.message() : "it is no regular file");
     return fmt::format("no such file: \"{}\" (names are relative to the scene's directory)", path.string());
   }
 
@@ -250,19 +254,20 @@ class KeyReader {
   }
 
   const std::filesystem::path& directory_;
+  const SceneFiles files_;
   std::vector<Problem>& problems_;
 };
 
 }  // namespace
 
-void read_keys(const Node& root, Scene& scene, std::vector<Problem>& problems) {
+void read_keys(const Node& root, Scene& scene, SceneFiles files, std::vector<Problem>& problems) {
   if (root.is_bad) return;
   if (!root.is_object()) {
     problems.push_back(
         {root.place, "", fmt::format("expected an object with the keys of a scene, found {}", root.describe())});
     return;
   }
-  KeyReader(scene.directory, problems).read_object(root, "", scene_keys(), &scene);
+  KeyReader(scene.directory, files, problems).read_object(root, "", scene_keys(), &scene);
 }
 
 }  // namespace meniscus::scene_detail

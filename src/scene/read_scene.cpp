@@ -81,14 +81,14 @@ SceneError::SceneError(std::vector<std::string> messages)
     : UsageError(fmt::format("{}", fmt::join(messages, "\n"))), messages_(std::move(messages)) {}
 
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& directory,
-                  const std::vector<std::string>& settings) {
+                  const std::vector<std::string>& settings, SceneFiles files) {
   std::vector<Problem> problems;
   Node root = parse_tree(text, problems);
   Scene scene;
   scene.directory = directory;
   if (!root.is_bad) {
     for (const std::string& setting : settings) apply_setting(root, setting, problems);
-    read_keys(root, scene, problems);
+    read_keys(root, scene, files, problems);
     check_scene(root, scene, problems);
   }
   if (!problems.empty()) throw SceneError(to_messages(std::move(problems), name));

@@ -53,10 +53,22 @@ void place(MeshData& data, double scale, const Vector3d& angles, const Vector3d&
   }
 }
 
+/// What a scene's own numbers may be at most (docs/SCENE.md).
+constexpr double largest_coordinate = 1e9;
+
+void check_coordinates(const MeshData& data) {
+  for (std::size_t v = 0; v < data.points.size(); ++v)
+    for (const double x : data.points[v])
+      if (!(std::abs(x) <= largest_coordinate))
+        throw GeometryError(fmt::format("vertex {} is at {:g} cm; scenes end at {:g} cm", v, x, largest_coordinate), {},
+                            {v});
+}
+
 /// A triangle mesh that a scene names, placed as it says.
 template <class Spec>
 MeshData read_placed_mesh(const Scene& scene, const Spec& spec) {
   MeshData data = read_mesh(scene.locate(spec.file));
+  check_coordinates(data);
   place(data, spec.scale, spec.rotation, spec.translation);
   return data;
 }
@@ -103,6 +115,16 @@ Mesh make_shape(const Scene& scene, const DropSpec& spec, const std::vector<Soli
   }
   rotate(mesh, spec.rotation, spec.center);
   return mesh;
+}
+
+/// A drop that has to be deleted at once is none.
+void check_size(const Drop& drop, const EdgeBand& band) {
+  const double least = std::pow(band.edge_min, 3) / std::sqrt(72.0);
+  if (drop.volume() < least)
+    throw GeometryError(
+        fmt::format("it holds {:.3g} cm^3, less than one tetrahedron of edges of edge_min {} cm ({:.3g} "
+                    "cm^3); lower mesh.edge_min and mesh.edge_max, or make the drop larger",
+                    drop.volume(), band.edge_min, least));
 }
 
 /// Adds the velocity and the rotation about the centre of mass that the scene gives.
@@ -198,6 +220,7 @@ std::vector<Drop> make_drops(const Scene& scene, const std::vector<Solid>& solid
     const DropSpec& spec = scene.drops[d];
     try {
       for (Drop& drop : make_drops_of(scene, spec, solids, taken)) {
+        check_size(drop, scene.mesh);
         set_in_motion(drop, spec);
         find_contact(drop, solids, 0, contact_tolerance);
         drop.set_id(static_cast<int>(drops.size()));

@@ -16,6 +16,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// to which all held; dt/sqrt(rho R^3/sigma) at the others, the largest that is in it.
 constexpr double longest_flow = 0.04, longest_capillary_step = 20;
 
+/// Where there are solids, a drop that moves by more of its radius in a step would need more substeps than there may
+/// be.
+constexpr double farthest_move = largest_move * most_substeps;
+
 }  // namespace
 
 double safe_time_step(const StepOptions& options, const std::vector<Drop>& drops, const std::vector<Solid>& solids) {
@@ -27,9 +31,14 @@ double safe_time_step(const StepOptions& options, const std::vector<Drop>& drops
     const double gamma = options.paper.curvature_flow_coefficient;
     return gamma > 0 ? longest_flow * smallest * smallest / gamma : infinity;
   }
+  double longest = infinity;
+  if (!solids.empty())
+    for (const Drop& drop : drops) longest = std::min(longest, farthest_move * ball_radius(drop) / top_speed(drop));
   const Liquid& liquid = options.liquid;
-  if (!(liquid.surface_tension > 0)) return infinity;
-  return longest_capillary_step * std::sqrt(liquid.density * std::pow(smallest, 3) / liquid.surface_tension);
+  if (!(liquid.surface_tension > 0)) return longest;
+  const double capillary =
+      longest_capillary_step * std::sqrt(liquid.density * std::pow(smallest, 3) / liquid.surface_tension);
+  return std::min(longest, capillary);
 }
 
 }  // namespace meniscus

@@ -167,11 +167,6 @@ VolumeCorrectionOptions volume_options(const StepOptions& step, const Drop& drop
 /// At most this much of a drop's lowest mode's phase, sqrt(2), passes in one substep of Level::calibrated:
 /// (omega dt)^2 = 4 c dt^2/R^2 <= 2. Beyond, one implicit step of the flow would shrink the drop by half.
 constexpr double largest_phase_squared = 2;
-/// Near a solid sqrt(c) dt is at most the middle of the edge band: beyond, the contact line and the
-/// surface beside it move past each other within a substep, and the wetted area folds. There, too, a drop moves at most
-/// this share of its ball's radius a substep, so that it meets the solid with its front and not as a whole.
-constexpr double largest_move = 0.5;
-constexpr int most_substeps = 256;
 /// Beyond this relative error of the volume a run has failed.
 constexpr double largest_volume_error = 2;
 
@@ -200,6 +195,8 @@ int num_substeps(const Drop& drop, const std::vector<Solid>& solids, double time
   if (options.level != Level::paper) {
     const double sqrt_c = std::sqrt(2 * options.liquid.surface_tension / (options.liquid.density * length));
     substeps = std::max(substeps, std::sqrt(4 / largest_phase_squared) * sqrt_c * dt / length);
+    // Near a solid sqrt(c) dt is at most the middle of the edge band: beyond, the contact line and the surface beside
+    // it move past each other within a substep, and the wetted area folds.
     if (near) substeps = std::max(substeps, sqrt_c * dt / (0.5 * (options.band.edge_min + options.band.edge_max)));
   }
   return static_cast<int>(std::ceil(std::min(substeps, static_cast<double>(most_substeps))));

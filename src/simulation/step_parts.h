@@ -29,6 +29,11 @@ class StageClock {
 /// The radius of the ball of the drop's volume (cm).
 inline double ball_radius(const Drop& drop) { return std::cbrt(drop.target_volume() * 0.75 / 3.14159265358979323846); }
 
+/// Near a solid a drop moves at most this share of its ball's radius a substep, so that it meets the solid with its
+/// front and not as a whole; and a step has at most so many substeps.
+inline constexpr double largest_move = 0.5;
+inline constexpr int most_substeps = 256;
+
 /// Puts the first of the pieces in the drop's place and the others behind `cut_off`. Returns whether there was one.
 bool replace_by_pieces(Drop& drop, std::vector<Drop>& cut_off, std::vector<Drop> pieces);
 

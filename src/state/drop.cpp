@@ -40,6 +40,8 @@ Drop::Drop(Mesh mesh) : mesh_(std::move(mesh)) {
   bind();
   connectivity_.rebuild(mesh_);
   target_volume_ = volume();
+  if (!std::isfinite(target_volume_) || target_volume_ == 0)
+    throw GeometryError("the volume of the mesh is beyond double precision, or none; scale its coordinates");
   if (!(target_volume_ > 0))
     throw GeometryError(
         fmt::format("the mesh encloses {} cm^3: its faces point inward; reverse their orientation", target_volume_));

@@ -48,9 +48,11 @@ std::map<std::int64_t, double> target_volumes(const MeshData& data) {
     std::string drop, key;
     std::int64_t id = 0;
     double volume = 0;
-    if (words >> drop >> id >> key >> volume && drop == "drop" && key == "target_volume" && volume > 0 &&
-        std::isfinite(volume))
-      volumes[id] = volume;
+    if (!(words >> drop >> id >> key) || drop != "drop" || key != "target_volume") continue;
+    if (!(words >> volume) || !(volume > 0) || !std::isfinite(volume))
+      throw GeometryError(
+          fmt::format("the comment \"{}\" gives no volume greater than zero; correct or remove it", comment));
+    volumes[id] = volume;
   }
   return volumes;
 }
@@ -107,6 +109,7 @@ void read_contact(const MeshData& part, Drop& drop) {
 }  // namespace
 
 std::vector<Drop> to_drops(const MeshData& data) {
+  if (data.triangles.empty()) throw GeometryError("the mesh is empty: a drop needs at least four faces");
   for (std::size_t t = 0; t < data.triangles.size(); ++t)
     for (const std::uint32_t v : data.triangles[t])
       if (v >= data.points.size())
@@ -121,6 +124,10 @@ std::vector<Drop> to_drops(const MeshData& data) {
   std::vector<Drop> drops;
   for (const std::int64_t id : ids) {
     MeshData part = part_of(data, label, id);
+    if (part.triangles.empty()) {
+      const auto lonely = static_cast<std::size_t>(std::find(label.begin(), label.end(), id) - label.begin());
+      throw GeometryError(fmt::format("vertex {} belongs to no face; remove it", lonely), {}, {lonely});
+    }
     std::vector<VertexAttribute> own;
     for (auto& attribute : part.attributes)
       if (is_own(attribute.name)) own.push_back(attribute);

@@ -86,6 +86,38 @@ TEST_F(CommandLine, SchemaIsJson) {
   EXPECT_TRUE(json::parse(schema.out).contains("properties"));
 }
 
+TEST_F(CommandLine, AReportReplacesNoOtherFile) {
+  write("a.off", sphere());
+  const std::string before = text("a.off");
+  for (const char* arguments :
+       {"check a.off --json a.off", "convert a.off b.off --json b.off", "merge a.off a.off -o b.off --json ./a.off",
+        "view a.off --html a.off", "remesh a.off -o b.off --edge 0.1 --json b.off"}) {
+    const Outcome outcome = tool(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments;
+    EXPECT_TRUE(has(outcome.err, "choose another name")) << outcome.err;
+    EXPECT_EQ(text("a.off"), before) << arguments;
+    EXPECT_FALSE(fs::exists(path("b.off"))) << arguments;
+  }
+}
+
+TEST_F(CommandLine, NamesThatTheSystemRefusesAreFileErrors) {
+  fs::create_symlink("loop.off", path("loop.off"));
+  write("a.json", R"({ "frames": 0, "drops": [ { "shape": "sphere", "radius": 0.2 } ] })");
+  write("b.json", R"({ "frames": 0, "drops": [ { "mesh": "loop.off" } ] })");
+  const std::string long_name(300, 'a');
+  for (const std::string& arguments :
+       {std::string("check loop.off"), std::string("convert loop.off b.off"),
+        std::string("view loop.off --html b.html"), std::string("evolve loop.off -o out"),
+        std::string("evolve a.json -o loop.off"), "evolve a.json -o " + long_name}) {
+    const Outcome outcome = tool(arguments);
+    EXPECT_EQ(outcome.code, 3) << arguments << ": " << outcome.err;
+    EXPECT_FALSE(has(outcome.err, "internal")) << outcome.err;
+  }
+  const Outcome scene = tool("evolve b.json -o out");
+  EXPECT_EQ(scene.code, 2);
+  EXPECT_TRUE(has(scene.err, "cannot be read")) << scene.err;
+}
+
 TEST_F(CommandLine, BrokenPipeIsQuiet) {
   write("big.ply", make_icosphere({0, 0, 0}, 1, 40));
   const Outcome outcome = shell("\"$MENISCUS\" convert big.ply - --format off | head -c 1 > logs/head");

@@ -198,6 +198,52 @@ TEST_F(Evolve, AnOlderRunsFramesGoAndWhatARunStartsFromStays) {
   EXPECT_TRUE(fs::exists(path("out/frame_0001.ply")));
 }
 
+TEST_F(Evolve, WhatARunReadsItDoesNotReplace) {
+  fs::create_directory(path("out"));
+  write("out/frame_0001.off", make_box({0, 0, -1}, {1, 1, 0.2}, 0.2));
+  const std::string solid = R"({ "frames": 1, "solids": [ { "shape": "mesh", "file": "out/frame_0001.off" } ],
+    "drops": [ { "shape": "sphere", "radius": 0.2 } ] })";
+  write("solid.json", solid);
+  write("out/run.json", R"({ "frames": 1, "drops": [ { "shape": "sphere", "radius": 0.2 } ] })");
+  for (const char* arguments :
+       {"solid.json -o out", "out/run.json -o out", "solid.json -o new --json new/frame_0000.ply",
+        "solid.json -o new --json new/run.json", "solid.json -o new --json solid.json"}) {
+    const auto before = names("out");
+    const Outcome outcome = tool(std::string("evolve ") + arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments;
+    EXPECT_EQ(names("out"), before) << arguments;
+    EXPECT_EQ(text("solid.json"), solid) << arguments;
+  }
+}
+
+TEST_F(Evolve, MeshesThatAreNoDropsAreRefused) {
+  write("empty.off", "OFF\n0 0 0\n");
+  write("lonely.off", "OFF\n5 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n5 5 5\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  write("far.off", "OFF\n4 4 0\n0 0 0\n1e10 0 0\n0 1e10 0\n0 0 1e10\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  write("ball.off", sphere());
+  write("small.json", R"({ "frames": 1, "drops": [ { "mesh": "ball.off", "scale": 0.01 } ] })");
+  write("thin.json", R"({ "frames": 1, "drops": [ { "shape": "box", "size": [1, 1, 1e-7] } ] })");
+  const std::pair<const char*, const char*> cases[] = {{"empty.off", "empty"},
+                                                       {"lonely.off", "vertex 4"},
+                                                       {"far.off", "1e+09"},
+                                                       {"small.json", "edge_min"},
+                                                       {"thin.json", "edge_min"}};
+  for (const auto& [file, part] : cases) {
+    const Outcome outcome = tool(std::string("evolve -o out --frames 1 ") + file);
+    EXPECT_EQ(outcome.code, 4) << file;
+    EXPECT_TRUE(has(outcome.err, part)) << outcome.err;
+    EXPECT_FALSE(fs::exists(path("out/frame_0000.ply"))) << file;
+  }
+}
+
+TEST_F(Evolve, ADropThatIsTooFastForTheTimeStepIsSaid) {
+  write("fast.json", R"({ "frames": 1, "solids": [ { "shape": "plane" } ],
+    "drops": [ { "shape": "sphere", "center": [0, 0, 1], "radius": 0.2, "velocity": [0, 0, -1e7] } ] })");
+  const Outcome outcome = tool("evolve fast.json -o out --dry-run --json report.json");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NEAR(report("report.json")["safe_time_step"].get<double>(), 128 * 0.2 / 1e7, 5e-8);
+}
+
 TEST_F(Evolve, MeshOnStdinIsADrop) {
   write("a.stl", make_sphere({0, 0, 1}, 0.2, 0.08));
   const Outcome outcome = shell("cat a.stl | \"$MENISCUS\" evolve - --format stl -o out --steps 1");

@@ -213,6 +213,39 @@ TEST_F(MeshVerbs, FlowKeepsTheVolumeOfEachComponentIfAsked) {
   EXPECT_NEAR(volume_of(mesh("b_1.ply")) / volume_of(to_mesh_data(small)), 1, 1e-6);
 }
 
+TEST_F(MeshVerbs, FlowKeepsTheVolumeInLongStepsOrSaysThatItCannot) {
+  write("box.off", make_box({0, 0, 0}, {1, 1, 1}, 0.15));
+  int kept = 0;
+  for (const char* dt : {"0.0001", "0.001", "0.01", "0.1", "1", "10"}) {
+    const Outcome outcome = tool(std::string("flow box.off -o flown.off --gamma 1 --keep-volume --dt ") + dt);
+    if (outcome.code == 5) {
+      EXPECT_TRUE(has(outcome.err, "--dt") || has(outcome.err, "smaller")) << outcome.err;
+      continue;
+    }
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NEAR(volume_of(mesh("flown.off")), volume_of(mesh("box.off")), 1e-8) << dt;
+    ++kept;
+  }
+  EXPECT_GE(kept, 3);
+}
+
+TEST_F(MeshVerbs, WhatIsWrongWithAMeshIsSaidOfItsFile) {
+  write("ball.off", sphere());
+  write_mesh(path("open.off"), open_sphere());
+  write("huge.off", "OFF\n4 4 0\n0 0 0\n1e300 0 0\n0 1e300 0\n0 0 1e300\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  const std::pair<const char*, const char*> cases[] = {{"split open.off -o 'p_{}.off' --plane 0,0,1,0", "open.off"},
+                                                       {"split ball.off -o 'p_{}.off' --cutter open.off", "open.off"},
+                                                       {"convert huge.off huge.glb", "huge.off"},
+                                                       {"convert huge.off huge.usda", "huge.off"},
+                                                       {"flow huge.off -o b.off --gamma 1 --dt 1", "precision"}};
+  for (const auto& [arguments, part] : cases) {
+    const Outcome outcome = tool(arguments);
+    EXPECT_EQ(outcome.code, 4) << arguments;
+    EXPECT_TRUE(has(outcome.err, part)) << outcome.err;
+  }
+  EXPECT_EQ(tool("remesh ball.off -o b.off --edge 0.1 --features 400").code, 2);
+}
+
 TEST_F(MeshVerbs, FlowIsTheSameOnOneThreadAndTwo) {
   write("a.ply", make_ellipsoid({0, 0, 0}, {0.3, 0.2, 0.2}, 0.02));
   const std::string arguments = "flow a.ply --gamma 1 --dt 1e-4 --steps 5 ";

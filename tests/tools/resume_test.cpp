@@ -88,7 +88,60 @@ TEST_F(Resume, WithoutASceneTheCheckpointsOwnIsTaken) {
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   expect_as_whole("out");
   const Outcome again = tool("evolve --resume -o out");
-  EXPECT_EQ(again.code, 2) << "there is no checkpoint, and no scene to start with";
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(has(again.err, "complete")) << again.err;
+}
+
+TEST_F(Resume, GoesOnFromAnywhereWithoutTheFilesOfDrops) {
+  fs::create_directories(path("scenes/meshes"));
+  fs::create_directory(path("elsewhere"));
+  write("scenes/meshes/ball.off", sphere());
+  write("scenes/meshes/plate.off", make_box({0, 0, -0.35}, {1, 1, 0.2}, 0.1));
+  write("scenes/a.json", R"({ "frames": 8, "mesh": { "edge_min": 0.04, "edge_max": 0.12 },
+    "solids": [ { "shape": "mesh", "file": "meshes/plate.off" } ], "drops": [ { "mesh": "meshes/ball.off" } ] })");
+  ASSERT_EQ(tool("evolve scenes/a.json -o whole_a").code, 0);
+  ASSERT_EQ(stopped_at("out/frame_0002.ply", "KILL", "scenes/a.json --checkpoint-every 1 -o out").code, 137);
+  fs::remove(path("scenes/meshes/ball.off"));
+  const Outcome resumed = shell("cd elsewhere && \"$MENISCUS\" evolve --resume -o ../out");
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  for (const std::string& name : names("whole_a")) {
+    if (name == "run.json") continue;
+    EXPECT_EQ(text("out/" + name), text("whole_a/" + name)) << name;
+  }
+}
+
+TEST_F(Resume, ASolidsMeshMustBeWhatItWas) {
+  const auto plate = [&](double z) { write("plate.off", make_box({0, 0, z - 0.35}, {1, 1, 0.2}, 0.1)); };
+  plate(0);
+  write("b.json", R"({ "frames": 8, "mesh": { "edge_min": 0.04, "edge_max": 0.12 },
+    "solids": [ { "shape": "mesh", "file": "plate.off" } ], "drops": [ { "shape": "sphere", "radius": 0.2 } ] })");
+  ASSERT_EQ(stopped_at("out/frame_0002.ply", "KILL", "b.json --checkpoint-every 1 -o out").code, 137);
+  const auto expect_refused = [&](const std::string& part) {
+    const Outcome outcome = tool("evolve --resume -o out");
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_TRUE(has(outcome.err, "plate.off") && has(outcome.err, part)) << outcome.err;
+    EXPECT_TRUE(has_checkpoint("out"));
+  };
+  plate(0.1);
+  expect_refused("has changed");
+  fs::remove(path("plate.off"));
+  expect_refused("is gone");
+  fs::create_directory(path("moved"));
+  plate(0);
+  fs::rename(path("plate.off"), path("moved/plate.off"));
+  fs::rename(path("b.json"), path("moved/b.json"));
+  EXPECT_EQ(tool("evolve moved/b.json --resume -o out").code, 0) << "the scene says where the mesh is now";
+}
+
+TEST_F(Resume, FewerStepsThanAreDoneAreRefused) {
+  ASSERT_EQ(stopped_at("out/frame_0004.ply", "KILL", "scene.json --checkpoint-every 1 -o out").code, 137);
+  for (const char* arguments : {"--frames 1", "scene.json --steps 2"}) {
+    const Outcome outcome = tool(std::string("evolve --resume -o out ") + arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments;
+    EXPECT_TRUE(has(outcome.err, "step")) << outcome.err;
+  }
+  ASSERT_EQ(tool("evolve --resume -o out").code, 0) << "the checkpoint is still there";
+  expect_as_whole("out");
 }
 
 /// The choice was made for the drops at the start, which are no more.
@@ -104,9 +157,21 @@ TEST_F(Resume, WhatTheModelAutoChoseIsKept) {
 }
 
 TEST_F(Resume, OfACompleteRunDoesNothing) {
-  const Outcome outcome = tool("evolve scene.json --resume -o whole");
-  EXPECT_EQ(outcome.code, 0);
-  EXPECT_TRUE(has(outcome.err, "complete")) << outcome.err;
+  for (const char* arguments : {"", "scene.json ", "scene.json --frames 2 ", "--frames 8 "}) {
+    const Outcome outcome = tool(std::string("evolve --resume -o whole ") + arguments);
+    EXPECT_EQ(outcome.code, 0) << arguments;
+    EXPECT_TRUE(has(outcome.err, "complete")) << outcome.err;
+  }
+}
+
+TEST_F(Resume, MoreOfACompleteRunOrAnotherSceneIsRefused) {
+  const std::string before = text("whole/run.json");
+  for (const char* arguments : {"--frames 9", "scene.json --frames 9", "scene.json --set liquid.viscosity=0.5"}) {
+    const Outcome outcome = tool(std::string("evolve --resume -o whole ") + arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments;
+    EXPECT_TRUE(has(outcome.err, "whole")) << outcome.err;
+  }
+  EXPECT_EQ(text("whole/run.json"), before);
 }
 
 TEST_F(Resume, WhereNothingIsStartsTheRun) {

@@ -66,9 +66,9 @@ TEST(FacesThatMeet, AreThoseOfALookAtAllPairs) {
   std::size_t num_meeting = 0;
   for (const double noise : {0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 1.0}) {
     Drop drop(make_icosphere(Vector3d(0.3, -7, 2), 1, 6));
-    std::normal_distribution<double> move(0, noise);
+    std::normal_distribution<double> move(0, 1);
     for (std::uint32_t v = 0; v < drop.num_rows() && noise > 0; ++v)
-      drop.positions().col(v) += Vector3d(move(numbers), move(numbers), move(numbers));
+      drop.positions().col(v) += noise * Vector3d(move(numbers), move(numbers), move(numbers));
     const MeshView mesh = view_of(std::as_const(drop));
     for (const double share : {1.0, 0.7}) {
       std::vector<FaceBox> faces = faces_in(mesh, box_of(mesh));

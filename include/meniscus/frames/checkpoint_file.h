@@ -14,7 +14,10 @@
 namespace meniscus {
 
 /// Counts up when a checkpoint holds something else than before; others are refused.
-inline constexpr int checkpoint_format = 4;
+inline constexpr int checkpoint_format = 5;
+
+/// The CRC-32 of ISO 3309.
+std::uint32_t checksum(std::string_view bytes);
 
 /// "checkpoint_00000120.bin", after step 120.
 std::string checkpoint_name(std::int64_t step);

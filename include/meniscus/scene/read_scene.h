@@ -30,8 +30,11 @@ class SceneError : public UsageError {
 /// Throws FileError if the file cannot be read (or is larger than 16 MB), SceneError for the rest.
 Scene read_scene(const std::filesystem::path& path, const std::vector<std::string>& settings = {});
 
+/// Whether the files that a scene names have to be there when it is read.
+enum class SceneFiles { are_there, not_looked_for };
+
 /// The same for a scene in memory, called `name` in messages.
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& directory,
-                  const std::vector<std::string>& settings = {});
+                  const std::vector<std::string>& settings = {}, SceneFiles files = SceneFiles::are_there);
 
 }  // namespace meniscus

@@ -49,7 +49,7 @@ int convert_frame(const ConvertOptions& options, FrameFormat format) {
 }
 
 int convert(const ConvertOptions& options) {
-  if (std::filesystem::is_directory(options.input)) return convert_frames(options);
+  if (options.input != "-" && std::filesystem::is_directory(options.input)) return convert_frames(options);
   if (const auto format = animation_format(options.output)) return convert_frame(options, *format);
   CommonOptions output = options.common;
   if (options.output_format) output.format = options.output_format;

@@ -162,6 +162,7 @@ void read_start(const EvolveOptions& options, RunPlan& plan) {
 }
 
 int evolve(const EvolveOptions& options) {
+  if (options.output == "-") throw UsageError("-o -: frames cannot go to stdout; name a directory");
   RunPlan plan;
   plan.output = options.output;
   plan.overwrite = options.overwrite;
@@ -189,7 +190,7 @@ void add_options(CLI::App& verb, EvolveOptions& options) {
   add_output(verb, options.output, "Directory of frames, measures.csv and run.json; made if need be")->type_name("DIR");
   CLI::Option* frames = verb.add_option("--frames", options.frames, "Frames after the first (default: the scene's)")
                             ->type_name("N")
-                            ->check(CLI::Range(0, 1000000));
+                            ->check(CLI::Range(0, 10000000));
   verb.add_option("--steps", options.steps, "Steps in all, instead of --frames; the last one is a frame too")
       ->type_name("N")
       ->check(CLI::Range(0, 1000000000))

@@ -188,6 +188,12 @@ std::string label(const Scene& scene, std::size_t s) {
   return fmt::format("solid {}{}{}", s, name, file);
 }
 
+/// What to call drop d.
+std::string label(const Scene& scene, const DropSpec& spec, std::size_t d) {
+  return fmt::format("drop {} ({})", d,
+                     spec.shape == DropShape::mesh ? scene.locate(spec.file).string() : shape_name(spec.shape));
+}
+
 }  // namespace
 
 std::vector<Solid> make_solids(const Scene& scene) {
@@ -227,9 +233,9 @@ std::vector<Drop> make_drops(const Scene& scene, const std::vector<Solid>& solid
         drops.push_back(std::move(drop));
       }
     } catch (const GeometryError& error) {
-      const std::string what =
-          spec.shape == DropShape::mesh ? scene.locate(spec.file).string() : shape_name(spec.shape);
-      throw GeometryError(fmt::format("drop {} ({}): {}", d, what, error.what()), error.faces(), error.vertices());
+      throw GeometryError(fmt::format("{}: {}", label(scene, spec, d), error.what()), error.faces(), error.vertices());
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("{}: {}", label(scene, spec, d), error.what()));
     }
   }
   return drops;

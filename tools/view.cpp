@@ -59,12 +59,21 @@ PageInput list_meshes(const std::vector<std::string>& files) {
   return input;
 }
 
+/// A page or report must not replace a frame that it shows.
+void check_frames_survive(const std::vector<fs::path>& frames, const std::string& output) {
+  std::error_code error;
+  for (const fs::path& frame : frames)
+    if (fs::equivalent(frame, output, error))
+      throw UsageError(fmt::format("{}: is a frame that would be lost; choose another name", output));
+}
+
 int view(const ViewOptions& options) {
   const std::vector<std::string> pieces = page_pieces();
   const double start = seconds_now();
   PageInput input = options.inputs.size() == 1 && fs::is_directory(options.inputs.front())
                         ? read_run(options.inputs.front(), options.common.console())
                         : list_meshes(options.inputs);
+  for (const std::string& output : {options.html, options.common.json}) check_frames_survive(input.frames, output);
   if (!options.title.empty()) input.title = options.title;
   PageReport page;
   const std::string html = make_page(input, pieces, page);

@@ -100,6 +100,16 @@ TEST_F(CommandLine, AReportReplacesNoOtherFile) {
   }
 }
 
+TEST_F(CommandLine, APageReplacesNoFrameThatItShows) {
+  fs::create_directory(path("run"));
+  write("run/frame_0000.ply", sphere());
+  const std::string before = text("run/frame_0000.ply");
+  for (const char* option : {"--html ", "--html b.html --json "}) {
+    EXPECT_EQ(tool(std::string("view run ") + option + "run/frame_0000.ply").code, 2) << option;
+    EXPECT_EQ(text("run/frame_0000.ply"), before) << option;
+  }
+}
+
 TEST_F(CommandLine, NamesThatTheSystemRefusesAreFileErrors) {
   fs::create_symlink("loop.off", path("loop.off"));
   write("a.json", R"({ "frames": 0, "drops": [ { "shape": "sphere", "radius": 0.2 } ] })");

@@ -222,12 +222,14 @@ TEST_F(Evolve, MeshesThatAreNoDropsAreRefused) {
   write("far.off", "OFF\n4 4 0\n0 0 0\n1e10 0 0\n0 1e10 0\n0 0 1e10\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   write("ball.off", sphere());
   write("small.json", R"({ "frames": 1, "drops": [ { "mesh": "ball.off", "scale": 0.01 } ] })");
+  write("spoilt.ply",
+        "ply\nformat ascii 1.0\ncomment drop 0 target_volume nan\nelement vertex 4\nproperty double x\n"
+        "property double y\nproperty double z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   write("thin.json", R"({ "frames": 1, "drops": [ { "shape": "box", "size": [1, 1, 1e-7] } ] })");
-  const std::pair<const char*, const char*> cases[] = {{"empty.off", "empty"},
-                                                       {"lonely.off", "vertex 4"},
-                                                       {"far.off", "1e+09"},
-                                                       {"small.json", "edge_min"},
-                                                       {"thin.json", "edge_min"}};
+  const std::pair<const char*, const char*> cases[] = {{"empty.off", "empty"},     {"lonely.off", "vertex 4"},
+                                                       {"far.off", "1e+09"},       {"spoilt.ply", "target_volume nan"},
+                                                       {"small.json", "edge_min"}, {"thin.json", "edge_min"}};
   for (const auto& [file, part] : cases) {
     const Outcome outcome = tool(std::string("evolve -o out --frames 1 ") + file);
     EXPECT_EQ(outcome.code, 4) << file;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 
 namespace meniscus::tools {
 namespace {
@@ -38,6 +39,15 @@ class FirstSentences : public CLI::Formatter {
 };
 
 }  // namespace
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  const auto whole = [](const std::string& name) {
+    return (std::filesystem::current_path() / name).lexically_normal();
+  };
+  return whole(a) == whole(b);
+}
 
 std::shared_ptr<CLI::FormatterBase> overview_formatter() { return std::make_shared<FirstSentences>(); }
 

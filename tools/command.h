@@ -56,6 +56,9 @@ CLI::Option* add_output(CLI::App& verb, std::string& output, const std::string& 
 CLI::Option* add_positive(CLI::App& verb, const std::string& name, std::optional<double>& value,
                           const std::string& unit, const std::string& what);
 
+/// Whether two names are of one file, or would be if it were there.
+bool is_same_file(const std::string& a, const std::string& b);
+
 /// The text of a number's option as a finite double. Throws UsageError, naming the option.
 double parse_number(const std::string& option, const std::string& text);
 

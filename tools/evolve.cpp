@@ -48,8 +48,12 @@ std::vector<std::string> all_settings(const EvolveOptions& options) {
   return settings;
 }
 
-/// Meshes instead of a scene: the scene that names them as its drops, with defaults for the rest.
-/// A sphere holds the place of stdin, which no scene can name.
+bool is_piped(const EvolveOptions& options) {
+  return std::find(options.inputs.begin(), options.inputs.end(), "-") != options.inputs.end();
+}
+
+/// Meshes instead of a scene: the scene that names them as its drops, with defaults for the rest. If one comes through
+/// stdin, which no scene can name, a sphere holds its place until the scene is checked, and it ends up without drops.
 Scene scene_of_meshes(const EvolveOptions& options) {
   nlohmann::ordered_json drops = nlohmann::ordered_json::array();
   for (const std::string& file : options.inputs) {
@@ -62,8 +66,10 @@ Scene scene_of_meshes(const EvolveOptions& options) {
     drops.push_back({{"mesh", file}});
   }
   const nlohmann::ordered_json scene{{"drops", drops}};
-  return parse_scene(scene.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace), "<command line>", "",
-                     all_settings(options));
+  Scene checked = parse_scene(scene.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace),
+                              "<command line>", "", all_settings(options));
+  if (is_piped(options)) checked.drops.clear();
+  return checked;
 }
 
 Scene read_input_scene(const EvolveOptions& options) {
@@ -74,15 +80,11 @@ Scene read_input_scene(const EvolveOptions& options) {
   return scene_of_meshes(options);
 }
 
-bool is_piped(const EvolveOptions& options) {
-  return std::find(options.inputs.begin(), options.inputs.end(), "-") != options.inputs.end();
-}
-
-/// Drops that came through stdin, which no scene can name: then all meshes are read here.
-std::optional<std::vector<Drop>> read_piped_drops(const EvolveOptions& options, Scene& scene) {
-  const auto pipes = std::count(options.inputs.begin(), options.inputs.end(), "-");
-  if (pipes == 0) return std::nullopt;
-  if (pipes > 1) throw UsageError("-: stdin can be read only once");
+/// Drops of which one came through stdin: then all meshes are read here.
+std::optional<std::vector<Drop>> read_piped_drops(const EvolveOptions& options) {
+  if (!is_piped(options)) return std::nullopt;
+  if (std::count(options.inputs.begin(), options.inputs.end(), "-") > 1)
+    throw UsageError("-: stdin can be read only once");
   std::vector<Drop> drops;
   for (const std::string& file : options.inputs) {
     const MeshData data = read_input(file, options.common);
@@ -91,7 +93,6 @@ std::optional<std::vector<Drop>> read_piped_drops(const EvolveOptions& options, 
       drops.push_back(std::move(drop));
     }
   }
-  scene.drops.clear();
   return drops;
 }
 
@@ -140,16 +141,14 @@ void read_start(const EvolveOptions& options, RunPlan& plan) {
                          : "SCENE is required: a scene (.json), or meshes to evolve in the default one");
   if (!plan.resume) {
     plan.scene = read_input_scene(options);
-    if (plan.is_complete && is_piped(options)) plan.scene.drops.clear();
     if (plan.is_complete) return check_asks_no_more(options.output, &plan.scene, std::nullopt, options.steps);
-    plan.drops = read_piped_drops(options, plan.scene);
+    plan.drops = read_piped_drops(options);
     plan.solids = solid_checksums(plan.scene);
     return;
   }
   plan.scene = plan.resume->scene;
   if (!options.inputs.empty()) {
     plan.scene = read_input_scene(options);
-    if (is_piped(options)) plan.scene.drops.clear();
     check_same_scene(*plan.resume, plan.scene);
   } else {
     if (!all_settings(options).empty() && !options.frames)

@@ -82,15 +82,6 @@ void parse(CLI::App& app, int argc, char** argv) {
     if (const std::string extras = describe_extras(app); !extras.empty()) throw UsageError(extras);
 }
 
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code error;
-  if (std::filesystem::equivalent(a, b, error)) return true;
-  const auto whole = [](const std::string& name) {
-    return (std::filesystem::current_path() / name).lexically_normal();
-  };
-  return whole(a) == whole(b);
-}
-
 /// Throws UsageError if a report or a page would replace a file that the command line names for something else.
 void check_reports_are_apart(const CLI::App& app) {
   for (const CLI::App* verb : app.get_subcommands())

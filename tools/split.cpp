@@ -64,10 +64,10 @@ std::vector<MeshData> cut(const MeshData& data, const SplitOptions& options, Rep
   const auto parts = report.timed([&] {
     try {
       return divide(data, cutter, {}, merged);
-    } catch (const GeometryError& error) {
-      const bool is_input = options.cutter.empty() || !inspect(data).sound;
-      throw GeometryError(shown_name(is_input ? options.input : options.cutter) + ": " + error.what(), error.faces(),
-                          error.vertices());
+    } catch (const GeometryError&) {
+      naming(options.input, [&] { require_sound(data); });
+      naming(options.cutter, [&] { require_sound(cutter); });
+      throw;
     }
   });
   report.add("retries", merged.retries);

@@ -61,9 +61,8 @@ PageInput list_meshes(const std::vector<std::string>& files) {
 
 /// A page or report must not replace a frame that it shows.
 void check_frames_survive(const std::vector<fs::path>& frames, const std::string& output) {
-  std::error_code error;
   for (const fs::path& frame : frames)
-    if (fs::equivalent(frame, output, error))
+    if (is_same_file(frame, output))
       throw UsageError(fmt::format("{}: is a frame that would be lost; choose another name", output));
 }
 

@@ -12,7 +12,6 @@ namespace meniscus::scene_detail {
 namespace {
 
 // No length, time or speed of a drop is beyond these; products of such numbers stay finite.
-constexpr double largest_magnitude = 1e9;
 constexpr double least_positive = 1e-15;
 
 std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }

@@ -53,14 +53,11 @@ void place(MeshData& data, double scale, const Vector3d& angles, const Vector3d&
   }
 }
 
-/// What a scene's own numbers may be at most (docs/SCENE.md).
-constexpr double largest_coordinate = 1e9;
-
 void check_coordinates(const MeshData& data) {
   for (std::size_t v = 0; v < data.points.size(); ++v)
     for (const double x : data.points[v])
-      if (!(std::abs(x) <= largest_coordinate))
-        throw GeometryError(fmt::format("vertex {} is at {:g} cm; scenes end at {:g} cm", v, x, largest_coordinate), {},
+      if (!(std::abs(x) <= largest_magnitude))
+        throw GeometryError(fmt::format("vertex {} is at {:g} cm; scenes end at {:g} cm", v, x, largest_magnitude), {},
                             {v});
 }
 

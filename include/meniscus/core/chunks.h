@@ -10,6 +10,7 @@
 
 /// Loops over the rows of one large array on several threads. Rows are cut into chunks by their number alone, and
 /// sums over chunks are added in the order of the chunks: the same bits come out on any number of threads.
+/// Chunks come in fours, which two or four threads share evenly.
 /// Up to `least_rows` rows are one chunk and run where they are called; loops with more work a row give fewer.
 namespace meniscus {
 

@@ -140,6 +140,9 @@ struct Scene {
   }
 };
 
+/// No number of a scene, nor a coordinate of a mesh that it names, is larger in magnitude.
+inline constexpr double largest_magnitude = 1e9;
+
 /// The scene that meshes given without a scene evolve in: all defaults, no solids, no drops yet.
 Scene default_scene();
 
